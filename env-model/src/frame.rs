@@ -1,0 +1,114 @@
+//! The 2012 local frame X'RY' and its perpendicular columns (Lu & Sun 2012, §2.1–2.2).
+
+use crate::{Inflated, Point, Vector};
+
+/// Origin at the robot R, x' along RG (eq. 3 of the paper).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LocalFrame {
+    origin: Point,
+    /// (cos θ, sin θ).
+    axis: Vector,
+    length: f64,
+}
+
+impl LocalFrame {
+    /// The frame of `start` → `goal`, which must differ.
+    pub fn new(start: Point, goal: Point) -> Self {
+        let d = goal - start;
+        let length = d.norm();
+        Self { origin: start, axis: d / length, length }
+    }
+
+    /// L = |RG|.
+    pub fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// World → local: (x', y').
+    pub fn to_local(&self, p: Point) -> Point {
+        let d = p - self.origin;
+        Point::new(d.x * self.axis.x + d.y * self.axis.y, d.y * self.axis.x - d.x * self.axis.y)
+    }
+
+    /// Local → world.
+    pub fn to_world(&self, p: Point) -> Point {
+        let (c, s) = (self.axis.x, self.axis.y);
+        self.origin + Vector::new(p.x * c - p.y * s, p.x * s + p.y * c)
+    }
+
+    /// An obstacle seen in the local frame.
+    pub fn obstacle_to_local(&self, obstacle: &Inflated) -> Inflated {
+        obstacle.mapped(|p| self.to_local(p))
+    }
+}
+
+/// The search model of the 2012 paper: RG cut into m + 1 equal parts, a
+/// perpendicular column on each of the m inner division points. A candidate is
+/// the m heights (y'₁ … y'ₘ); the paper's search rectangle has |y'| ≤ L/4.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Columns {
+    frame: LocalFrame,
+    start: Point,
+    goal: Point,
+    count: usize,
+}
+
+impl Columns {
+    /// `count` = m ≥ 1 columns between two different points.
+    pub fn new(start: Point, goal: Point, count: usize) -> Self {
+        Self { frame: LocalFrame::new(start, goal), start, goal, count }
+    }
+
+    /// The local frame.
+    pub fn frame(&self) -> &LocalFrame {
+        &self.frame
+    }
+
+    /// m, the number of free heights.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Δ = L/(m + 1).
+    pub fn spacing(&self) -> f64 {
+        self.frame.length / (self.count + 1) as f64
+    }
+
+    /// H = L/4, half the width of the paper's rectangle.
+    pub fn half_width(&self) -> f64 {
+        0.25 * self.frame.length
+    }
+
+    /// x' of column `i`, 0 ≤ i ≤ m + 1; 0 is the start, m + 1 the goal.
+    pub fn x(&self, i: usize) -> f64 {
+        i as f64 * self.spacing()
+    }
+
+    /// Writes start, the m points at `heights`, goal into `path`: m + 2 points, the ends exact.
+    pub fn write_path(&self, heights: &[f64], path: &mut Vec<Point>) {
+        debug_assert_eq!(heights.len(), self.count);
+        path.clear();
+        path.push(self.start);
+        path.extend(heights.iter().enumerate().map(|(i, &y)| self.frame.to_world(Point::new(self.x(i + 1), y))));
+        path.push(self.goal);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_frame_is_a_rigid_motion_and_back() {
+        let columns = Columns::new(Point::new(200.0, 150.0), Point::new(400.0, 260.0), 20);
+        assert!((columns.frame().length() - 228.2542).abs() < 1e-4, "|RG| of the digest");
+        let p = Point::new(240.0, 160.0);
+        let q = columns.frame().to_local(p);
+        assert!((columns.frame().to_world(q) - p).norm() < 1e-12);
+        assert!(q.y < 0.0, "disc 0 lies right of RG");
+        let mut path = Vec::new();
+        columns.write_path(&[0.0; 20], &mut path);
+        assert_eq!((path.len(), path[0], path[21]), (22, Point::new(200.0, 150.0), Point::new(400.0, 260.0)));
+        assert!((crate::path_length(&path) - columns.frame().length()).abs() < 1e-10);
+    }
+}

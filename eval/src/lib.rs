@@ -1,0 +1,5 @@
+//! The bench: config → runs → verdicts → scores → statistics → report.
+
+pub mod report;
+pub mod results;
+pub mod stats;

@@ -1,0 +1,196 @@
+//! What a campaign leaves: the data model that store, exports and report share.
+
+use env_model::{Point, Scene};
+use serde::{Deserialize, Serialize};
+
+/// How a run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RunStatus {
+    /// The planner believes in its path.
+    Solved,
+    /// The budget ended it.
+    BudgetSpent,
+    /// No path that the planner believes in.
+    NotFound,
+    /// The planner proved that there is none.
+    Infeasible,
+    /// The planner refused the problem, or panicked with a message.
+    Error,
+    /// Its process died (isolated and external planners).
+    Crashed,
+    /// It outlived its hard limit.
+    Timeout,
+    /// It outgrew its memory limit.
+    OutOfMemory,
+}
+
+impl RunStatus {
+    /// Every status, in the order of declaration.
+    pub const ALL: [Self; 8] = [
+        Self::Solved,
+        Self::BudgetSpent,
+        Self::NotFound,
+        Self::Infeasible,
+        Self::Error,
+        Self::Crashed,
+        Self::Timeout,
+        Self::OutOfMemory,
+    ];
+
+    /// The name in tables and files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Solved => "solved",
+            Self::BudgetSpent => "budget_spent",
+            Self::NotFound => "not_found",
+            Self::Infeasible => "infeasible",
+            Self::Error => "error",
+            Self::Crashed => "crashed",
+            Self::Timeout => "timeout",
+            Self::OutOfMemory => "out_of_memory",
+        }
+    }
+
+    /// The status of that name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|s| s.name() == name)
+    }
+}
+
+/// One point of a run's convergence: its best cost when it last improved.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Progress {
+    /// Evaluations of the planner's objective so far.
+    pub evaluations: u64,
+    /// Microseconds since the run began.
+    pub time_us: f64,
+    /// Best cost so far by the planner's own objective.
+    pub cost: f64,
+}
+
+/// One run, judged.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RunRecord {
+    /// Name of the scene.
+    pub scene: String,
+    /// Label of the planner.
+    pub planner: String,
+    /// Repeat, from 0.
+    pub repeat: u32,
+    /// The run's seed, < 2⁵³.
+    pub seed: u64,
+    /// How it ended.
+    pub status: RunStatus,
+    /// The independent judge's verdict, never the planner's word.
+    pub valid: bool,
+    /// Path length in scene units; `None` without a path.
+    pub length: Option<f64>,
+    /// length / optimum − 1; `None` unless valid and the optimum is known.
+    pub gap: Option<f64>,
+    /// Least clearance of the path, negative inside obstacles; `None` without a path or in an empty world.
+    pub clearance_min: Option<f64>,
+    /// Total absolute turning, rad; `None` without a path.
+    pub turning: Option<f64>,
+    /// Iterations of the planner's outer loop.
+    pub iterations: u64,
+    /// Evaluations of the planner's own objective.
+    pub evaluations: u64,
+    /// Tests of one segment against the world.
+    pub collision_checks: u64,
+    /// Wall time of the planning call, µs.
+    pub time_us: f64,
+    /// Processor time of the planning call, µs.
+    pub cpu_us: f64,
+    /// What went wrong, if anything.
+    pub error: Option<String>,
+    /// The path; empty without one.
+    pub path: Vec<Point>,
+    /// Convergence: one entry per improvement.
+    pub progress: Vec<Progress>,
+}
+
+/// The exact shortest length in a scene, or why it is not known.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Optimum {
+    /// Shortest length among obstacles shrunk by the scene's ε.
+    pub length: Option<f64>,
+    /// A polyline of that path, for pictures.
+    pub path: Vec<Point>,
+    /// Why there is no length.
+    pub reason: Option<String>,
+}
+
+/// A scene of the campaign.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SceneResult {
+    /// The scene itself.
+    pub scene: Scene,
+    /// Its optimum.
+    pub optimum: Optimum,
+}
+
+/// A planner of the campaign.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlannerInfo {
+    /// The label in tables.
+    pub label: String,
+    /// The kind in the catalogue.
+    pub kind: String,
+    /// Every setting actually used, as TOML.
+    pub settings: String,
+}
+
+/// Where and how the numbers were made.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Manifest {
+    /// Version of the program.
+    pub version: String,
+    /// Debug or release build.
+    pub profile: String,
+    /// Operating system and architecture.
+    pub platform: String,
+    /// Processor model.
+    pub cpu: String,
+    /// Logical processors.
+    pub cores: usize,
+    /// Threads that ran planners.
+    pub jobs: usize,
+    /// When the campaign began, RFC 3339, UTC.
+    pub started: String,
+    /// When it ended.
+    pub finished: String,
+    /// Identity of the campaign: hash of resolved comparison, scenes and version.
+    pub identity: String,
+}
+
+/// A whole campaign.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Results {
+    /// Name of the comparison.
+    pub name: String,
+    /// The comparison's seed.
+    pub seed: u64,
+    /// Repeats per planner and scene.
+    pub repeats: u32,
+    /// The planners in the comparison file's order.
+    pub planners: Vec<PlannerInfo>,
+    /// The scenes in the comparison file's order.
+    pub scenes: Vec<SceneResult>,
+    /// The runs, sorted by scene, planner, repeat (names in byte order).
+    pub runs: Vec<RunRecord>,
+    /// Machine, versions, times.
+    pub manifest: Manifest,
+}
+
+impl Results {
+    /// The runs of one planner, over one scene or (`None`) all of them.
+    pub fn runs_of<'a>(&'a self, planner: &'a str, scene: Option<&'a str>) -> impl Iterator<Item = &'a RunRecord> {
+        self.runs.iter().filter(move |r| r.planner == planner && scene.is_none_or(|s| r.scene == s))
+    }
+
+    /// Whether the campaign holds a scene whose optimum is known.
+    pub fn has_optimum(&self) -> bool {
+        self.scenes.iter().any(|s| s.optimum.length.is_some())
+    }
+}

@@ -1,0 +1,92 @@
+//! Order statistics in which failures count: a run without a valid path is +∞.
+
+use crate::results::{Results, RunRecord};
+
+/// The q-quantile, 0 ≤ q ≤ 1, of `values`, by linear interpolation between order
+/// statistics (Hyndman & Fan 1996, type 7). Infinite values take part; between a
+/// finite value and +∞ the answer is +∞. `None` for no values.
+pub fn quantile(values: &[f64], q: f64) -> Option<f64> {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let last = sorted.len().checked_sub(1)?;
+    let at = q * last as f64;
+    let (below, share) = (at.floor() as usize, at.fract());
+    let low = sorted[below];
+    Some(if share == 0.0 { low } else { low + share * (sorted[below + 1] - low) })
+        .map(|v| if v.is_nan() { f64::INFINITY } else { v })
+}
+
+/// The median of `values`.
+pub fn median(values: &[f64]) -> Option<f64> {
+    quantile(values, 0.5)
+}
+
+/// What the comparison table says of one planner, over one scene or all.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Summary {
+    /// The planner's label.
+    pub planner: String,
+    /// The scene, `None` for all of them together.
+    pub scene: Option<String>,
+    /// Runs made.
+    pub runs: usize,
+    /// Runs with a valid path.
+    pub valid: usize,
+    /// Median length, +∞ when half the runs or more failed.
+    pub length_median: f64,
+    /// Quartiles of the length, +∞ likewise.
+    pub length_quartiles: [f64; 2],
+    /// Shortest valid length; +∞ without one.
+    pub length_best: f64,
+    /// Median of length/optimum − 1; `None` where no optimum is known.
+    pub gap_median: Option<f64>,
+    /// Median wall time of all runs, µs.
+    pub time_us_median: f64,
+    /// Median number of evaluations of all runs.
+    pub evaluations_median: f64,
+}
+
+/// A run's length as it counts in statistics: +∞ unless valid.
+pub fn counted_length(run: &RunRecord) -> f64 {
+    if run.valid { run.length.unwrap_or(f64::INFINITY) } else { f64::INFINITY }
+}
+
+/// Summarises the runs of one planner. `None` when it has no runs there.
+///
+/// The gap's median is over the runs in scenes whose optimum is known;
+/// failures are +∞ in it.
+pub fn summarise(results: &Results, planner: &str, scene: Option<&str>) -> Option<Summary> {
+    let runs: Vec<&RunRecord> = results.runs_of(planner, scene).collect();
+    let of = |f: &dyn Fn(&RunRecord) -> f64| runs.iter().map(|r| f(r)).collect::<Vec<f64>>();
+    let lengths = of(&counted_length);
+    let known = |name: &str| results.scenes.iter().any(|s| s.scene.name == name && s.optimum.length.is_some());
+    let gaps: Vec<f64> = runs.iter().filter(|r| known(&r.scene)).map(|r| r.gap.unwrap_or(f64::INFINITY)).collect();
+    Some(Summary {
+        planner: planner.to_owned(),
+        scene: scene.map(str::to_owned),
+        runs: runs.len(),
+        valid: runs.iter().filter(|r| r.valid).count(),
+        length_median: median(&lengths)?,
+        length_quartiles: [quantile(&lengths, 0.25)?, quantile(&lengths, 0.75)?],
+        length_best: lengths.iter().copied().fold(f64::INFINITY, f64::min),
+        gap_median: median(&gaps),
+        time_us_median: median(&of(&|r| r.time_us))?,
+        evaluations_median: median(&of(&|r| r.evaluations as f64))?,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantiles_with_failures() {
+        let inf = f64::INFINITY;
+        assert_eq!(median(&[3.0, 1.0, 2.0]), Some(2.0));
+        assert_eq!(median(&[1.0, 2.0, 3.0, 4.0]), Some(2.5));
+        assert_eq!(median(&[1.0, 2.0, inf, inf]), Some(inf));
+        assert_eq!(median(&[inf, inf]), Some(inf));
+        assert_eq!(quantile(&[1.0, 2.0, 3.0, 4.0, inf], 0.25), Some(2.0));
+        assert_eq!(median(&[]), None);
+    }
+}

@@ -1,0 +1,24 @@
+//! What a planner is: the contract that every planner keeps.
+//!
+//! A [`Planner`] turns a [`Problem`] into a [`Plan`]; the caller's [`Run`]
+//! carries seed, budget and observer. A [`Refiner`] improves another planner's
+//! plan. Planners do no I/O, start no threads, keep no globals, and read no
+//! clock but through the budget. The same problem, settings, seed and *count*
+//! budget give the same path, bit for bit.
+
+mod budget;
+mod error;
+mod observer;
+mod plan;
+mod planner;
+mod problem;
+mod run;
+pub mod seed;
+
+pub use budget::Budget;
+pub use error::{PlanError, SettingError};
+pub use observer::{Detail, Frame, Observer, SwarmView, View};
+pub use plan::{Candidates, Counters, Plan};
+pub use planner::{Planner, Refinement, Refiner, Status};
+pub use problem::Problem;
+pub use run::Run;

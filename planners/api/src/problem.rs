@@ -1,0 +1,46 @@
+//! What is to be planned.
+
+use env_model::{Point, World};
+
+use crate::PlanError;
+
+/// A world, a start and a goal, both free. Borrowed: building one costs two point queries.
+#[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
+pub struct Problem<'a> {
+    /// The compiled scene.
+    pub world: &'a World,
+    /// Where the path begins.
+    pub start: Point,
+    /// Where it ends.
+    pub goal: Point,
+}
+
+impl<'a> Problem<'a> {
+    /// Checks that start and goal differ and are free.
+    ///
+    /// # Errors
+    /// [`PlanError`] names the end, how deep it lies and in what. Escaping from
+    /// an obstacle is the strategy layer's business.
+    pub fn new(world: &'a World, start: Point, goal: Point) -> Result<Self, PlanError> {
+        for (end, p) in [("start", start), ("goal", goal)] {
+            let (x, y) = (p.x, p.y);
+            if !(x.is_finite() && y.is_finite()) {
+                return Err(PlanError::NotFinite { end, x, y });
+            }
+            let border = world.field_clearance(p);
+            if border < -world.slack() {
+                return Err(PlanError::OutsideField { end, x, y, depth: -border });
+            }
+            if let Some((d, obstacle)) = world.nearest_obstacle(p)
+                && d < -world.slack()
+            {
+                return Err(PlanError::InsideObstacle { end, x, y, depth: -d, obstacle });
+            }
+        }
+        if start == goal {
+            return Err(PlanError::StartIsGoal { x: start.x, y: start.y });
+        }
+        Ok(Self { world, start, goal })
+    }
+}
