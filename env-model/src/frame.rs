@@ -86,8 +86,13 @@ impl Columns {
 
     /// Writes start, the m points at `heights`, goal into `path`: m + 2 points, the ends exact.
     pub fn write_path(&self, heights: &[f64], path: &mut Vec<Point>) {
-        debug_assert_eq!(heights.len(), self.count);
         path.clear();
+        self.append_path(heights, path);
+    }
+
+    /// Appends the same points to `path`.
+    pub fn append_path(&self, heights: &[f64], path: &mut Vec<Point>) {
+        debug_assert_eq!(heights.len(), self.count);
         path.push(self.start);
         path.extend(heights.iter().enumerate().map(|(i, &y)| self.frame.to_world(Point::new(self.x(i + 1), y))));
         path.push(self.goal);

@@ -130,15 +130,10 @@ impl Polygon {
     }
 
     /// Whether some point of segment `a b` lies inside, farther than `delta` ≥ 0 from every side.
+    ///
+    /// Walks from cut to cut, the ends of the sides' intervals, and tests one
+    /// point between each two. O(n²), no allocation.
     pub fn enters_deeper_than(&self, a: Point, b: Point, delta: f64) -> bool {
-        let mut cuts = vec![0.0, 1.0];
-        for (c, e) in self.sides() {
-            if let Some((t0, t1)) = near_interval(a, b, c, e, delta) {
-                cuts.push(t0.clamp(0.0, 1.0));
-                cuts.push(t1.clamp(0.0, 1.0));
-            }
-        }
-        cuts.sort_by(f64::total_cmp);
         let deep = |t: f64| {
             let p = a + (b - a) * t;
             self.contains(p) && self.sides().all(|(c, e)| point_segment_distance(p, c, e) > delta)
@@ -146,7 +141,20 @@ impl Polygon {
         if a == b {
             return deep(0.0);
         }
-        cuts.windows(2).any(|w| w[1] > w[0] && deep(0.5 * (w[0] + w[1])))
+        let mut from = 0.0;
+        while from < 1.0 {
+            let next = self
+                .sides()
+                .filter_map(|(c, e)| near_interval(a, b, c, e, delta))
+                .flat_map(|(t0, t1)| [t0, t1])
+                .filter(|t| *t > from)
+                .fold(1.0, f64::min);
+            if deep(0.5 * (from + next)) {
+                return true;
+            }
+            from = next;
+        }
+        false
     }
 }
 

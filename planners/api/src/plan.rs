@@ -63,7 +63,12 @@ impl Candidates {
 
     /// Appends a path.
     pub fn push(&mut self, path: impl IntoIterator<Item = Point>) {
-        self.points.extend(path);
+        self.push_with(|points| points.extend(path));
+    }
+
+    /// Appends the path that `write` adds to the buffer.
+    pub fn push_with(&mut self, write: impl FnOnce(&mut Vec<Point>)) {
+        write(&mut self.points);
         self.ends.push(self.points.len());
     }
 

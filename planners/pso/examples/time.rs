@@ -1,0 +1,31 @@
+//! Median time of a run of the paper's swarm on its scene.
+use std::time::Instant;
+
+use env_model::{Obstacle, Scene, World};
+use planner_api::{Plan, Planner, Problem, Run};
+use planner_pso::{Pso, Settings};
+
+fn main() {
+    let scene = Scene {
+        name: "lu-sun-2012".into(),
+        unit: "cm".into(),
+        robot_radius: 0.0,
+        start: [200.0, 150.0],
+        goal: [400.0, 260.0],
+        field: None,
+        obstacles: [[240.0, 160.0], [280.0, 200.0], [320.0, 230.0]].map(|c| Obstacle::disc(c.into(), 16.0)).to_vec(),
+    };
+    let world = World::new(&scene).expect("a good scene");
+    let problem = Problem::new(&world, scene.start(), scene.goal()).expect("free ends");
+    let mut pso = Pso::new(Settings::default()).expect("defaults");
+    let mut plan = Plan::new();
+    let mut times: Vec<f64> = (0..1000)
+        .map(|seed| {
+            let begin = Instant::now();
+            pso.plan_into(&problem, &mut Run::new(seed), &mut plan).expect("free ends");
+            begin.elapsed().as_secs_f64() * 1e6
+        })
+        .collect();
+    times.sort_by(f64::total_cmp);
+    println!("µs: least {:.1}, median {:.1}", times[0], times[500]);
+}
