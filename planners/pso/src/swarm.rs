@@ -401,6 +401,7 @@ mod tests {
         for t in 0..settings.iterations {
             let w = settings.inertia_at(t);
             for i in 0..n {
+                #[allow(clippy::needless_range_loop, reason = "the transcription keeps the paper's indices")]
                 for d in 0..m {
                     let (r1, r2) = rngs[i].uniform_pair();
                     let x = r.x[i][d];
