@@ -1,6 +1,6 @@
 //! The 2012 local frame X'RY' and its perpendicular columns (Lu & Sun 2012, §2.1–2.2).
 
-use crate::{Inflated, Point, Vector};
+use crate::{Aabb, Inflated, Point, Vector};
 
 /// Origin at the robot R, x' along RG (eq. 3 of the paper).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,6 +39,11 @@ impl LocalFrame {
     /// An obstacle seen in the local frame.
     pub fn obstacle_to_local(&self, obstacle: &Inflated) -> Inflated {
         obstacle.mapped(|p| self.to_local(p))
+    }
+
+    /// The smallest box, in the local frame, round an obstacle. Allocates nothing.
+    pub fn aabb_of(&self, obstacle: &Inflated) -> Aabb {
+        obstacle.aabb_seen_by(|p| self.to_local(p))
     }
 }
 

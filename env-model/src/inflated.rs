@@ -35,10 +35,15 @@ impl Inflated {
 
     /// The smallest box round the inflated shape.
     pub fn aabb(&self) -> Aabb {
+        self.aabb_seen_by(|p| p)
+    }
+
+    /// The smallest box round the shape after the rigid motion `map`. Allocates nothing.
+    pub fn aabb_seen_by(&self, map: impl Fn(Point) -> Point) -> Aabb {
         let core = match &self.core {
-            Core::Point(c) => Aabb { min: *c, max: *c },
-            Core::Segment(a, b) => Aabb::of_points([a, b]),
-            Core::Polygon(polygon) => polygon.aabb(),
+            Core::Point(c) => Aabb::EMPTY.including(map(*c)),
+            Core::Segment(a, b) => Aabb::EMPTY.including(map(*a)).including(map(*b)),
+            Core::Polygon(polygon) => polygon.corners().iter().fold(Aabb::EMPTY, |box_, p| box_.including(map(*p))),
         };
         core.inflated(self.radius)
     }

@@ -71,8 +71,7 @@ impl Polygon {
         (0..n).map(move |i| (self.corners[i], self.corners[(i + 1) % n]))
     }
 
-    /// The smallest box round the polygon.
-    pub fn aabb(&self) -> Aabb {
+    fn aabb(&self) -> Aabb {
         Aabb::of_points(&self.corners)
     }
 

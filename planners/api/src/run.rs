@@ -92,6 +92,7 @@ impl<'r> Run<'r> {
         let Counters { iterations: iteration, evaluations, .. } = self.spent;
         if observer.frame(&Frame { stage, iteration, evaluations, best_cost, view }) == ControlFlow::Break(()) {
             self.stopped = true;
+            self.observer = None;
         }
     }
 }

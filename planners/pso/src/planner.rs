@@ -6,7 +6,7 @@ use pulp::Arch;
 
 use crate::Settings;
 use crate::sides::SideClasses;
-use crate::swarm::Swarm;
+use crate::swarm::{Ground, Swarm};
 use crate::terrain::Terrain;
 
 /// Lu & Sun's swarm. Buffers are kept between calls.
@@ -43,20 +43,21 @@ impl Pso {
             rows: Rows::default(),
         })
     }
+}
 
-    fn report(&mut self, columns: &Columns, run: &mut Run<'_>) {
-        let Self { swarm, rows, .. } = self;
+impl Rows {
+    fn report(&mut self, swarm: &Swarm, columns: &Columns, run: &mut Run<'_>) {
         if run.detail() == Detail::State {
-            swarm.transpose(&swarm.x, &mut rows.x);
-            swarm.transpose(&swarm.v, &mut rows.v);
-            swarm.transpose(&swarm.best, &mut rows.best);
+            swarm.transpose(&swarm.x, &mut self.x);
+            swarm.transpose(&swarm.v, &mut self.v);
+            swarm.transpose(&swarm.best, &mut self.best);
         }
         run.report("pso", swarm.global_cost, || {
             View::Swarm(SwarmView {
                 columns,
-                positions: &rows.x,
-                velocities: &rows.v,
-                personal_bests: &rows.best,
+                positions: &self.x,
+                velocities: &self.v,
+                personal_bests: &self.best,
                 personal_costs: &swarm.best_cost[..swarm.particles],
                 global_best: &swarm.global,
                 global_cost: swarm.global_cost,
@@ -70,37 +71,36 @@ impl Planner for Pso {
         plan.clear();
         let (particles, m) = (self.settings.particles as u64, self.settings.columns);
         let columns = Columns::new(problem.start, problem.goal, m);
-        let half_width = columns.half_width();
         if !run.allows_setup(particles) {
             plan.counters = run.spent;
             return Ok(Status::BudgetSpent);
         }
-        self.terrain.compile(problem.world, &columns, self.settings.bounds);
-        self.sides.begin(self.settings.side_classes, &self.terrain, &columns);
-        self.swarm.initialise(self.arch, &self.settings, &self.terrain, half_width, run.seed);
-        let account = |run: &mut Run<'_>| {
+        let Self { settings, arch, swarm, terrain, sides, rows } = self;
+        terrain.compile(problem.world, &columns, settings.bounds);
+        sides.begin(settings.side_classes, terrain, &columns);
+        let ground = Ground { arch: *arch, settings, world: problem.world, columns: &columns, terrain };
+        let mut account = |swarm: &Swarm, run: &mut Run<'_>| {
             run.spent.evaluations += particles;
             run.spent.collision_checks += particles * (m as u64 + 1);
+            sides.collect(swarm);
+            rows.report(swarm, &columns, run);
         };
-        account(run);
-        self.sides.collect(&self.swarm);
-        self.report(&columns, run);
-        for t in 0..self.settings.iterations {
+        swarm.initialise(ground, run.seed);
+        account(swarm, run);
+        for t in 0..settings.iterations {
             if !run.allows(particles) {
                 break;
             }
-            self.swarm.iterate(self.arch, &self.settings, &self.terrain, half_width, t);
+            swarm.iterate(ground, t);
             run.spent.iterations += 1;
-            account(run);
-            self.sides.collect(&self.swarm);
-            self.report(&columns, run);
+            account(swarm, run);
         }
-        columns.write_path(&self.swarm.global, &mut plan.path);
-        plan.cost = self.swarm.global_cost;
+        columns.write_path(&swarm.global, &mut plan.path);
+        plan.cost = swarm.global_cost;
         let free = problem.world.path_free(&plan.path);
         run.spent.collision_checks += m as u64 + 1;
         plan.counters = run.spent;
-        for heights in self.sides.members(m) {
+        for heights in sides.members(m) {
             plan.candidates.push_with(|points| columns.append_path(heights, points));
         }
         Ok(if run.stopped() {

@@ -1,5 +1,6 @@
 //! The swarm: particles in lanes, one fused pass of moving and evaluating an iteration.
 
+use env_model::{Columns, World};
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::lanes::{Generators, Lanes};
@@ -38,6 +39,21 @@ pub struct Swarm {
     rng: Lanes,
 }
 
+/// What stays the same during a run.
+#[derive(Clone, Copy)]
+pub struct Ground<'a> {
+    /// The vector unit in use.
+    pub arch: Arch,
+    /// The planner's settings.
+    pub settings: &'a Settings,
+    /// The compiled scene.
+    pub world: &'a World,
+    /// The search model.
+    pub columns: &'a Columns,
+    /// The obstacles by column and strip.
+    pub terrain: &'a Terrain,
+}
+
 /// What a pass needs to know.
 #[derive(Clone, Copy)]
 struct Rules {
@@ -56,7 +72,8 @@ struct Rules {
 
 impl Swarm {
     /// Places and evaluates the initial swarm: uniform on [−H, H]ᵐ, velocity 0.
-    pub fn initialise(&mut self, arch: Arch, settings: &Settings, terrain: &Terrain, half_width: f64, seed: u64) {
+    pub fn initialise(&mut self, ground: Ground<'_>, seed: u64) {
+        let settings = ground.settings;
         self.particles = settings.particles;
         self.dims = settings.columns;
         self.stride = settings.particles.next_multiple_of(PAD);
@@ -73,16 +90,16 @@ impl Swarm {
         self.global.resize(self.dims, 0.0);
         self.global_cost = f64::INFINITY;
         self.rng.seed(seed, self.stride);
-        self.pass(arch, terrain, Rules { place: true, ..Rules::of(settings, 0, half_width) });
+        self.pass(ground, Rules { place: true, ..Rules::of(ground, 0) });
     }
 
     /// Moves, evaluates and updates the bests: iteration `t`, counted from 0.
-    pub fn iterate(&mut self, arch: Arch, settings: &Settings, terrain: &Terrain, half_width: f64, t: u64) {
-        self.pass(arch, terrain, Rules::of(settings, t, half_width));
+    pub fn iterate(&mut self, ground: Ground<'_>, t: u64) {
+        self.pass(ground, Rules::of(ground, t));
     }
 
-    fn pass(&mut self, arch: Arch, terrain: &Terrain, rules: Rules) {
-        arch.dispatch(Pass { swarm: self, terrain, rules });
+    fn pass(&mut self, ground: Ground<'_>, rules: Rules) {
+        ground.arch.dispatch(Pass { swarm: self, ground, rules });
         let old = self.global_cost;
         let mut leader = None;
         for (i, &cost) in self.best_cost[..self.particles].iter().enumerate() {
@@ -126,7 +143,8 @@ impl Swarm {
 }
 
 impl Rules {
-    fn of(settings: &Settings, t: u64, half_width: f64) -> Self {
+    fn of(ground: Ground<'_>, t: u64) -> Self {
+        let (settings, half_width) = (ground.settings, ground.columns.half_width());
         let (c1, c2) = settings.weights();
         Self {
             w: settings.inertia_at(t),
@@ -146,7 +164,7 @@ impl Rules {
 /// One pass over all lanes, W at a time, W being the width of the vector unit found at run time.
 struct Pass<'a> {
     swarm: &'a mut Swarm,
-    terrain: &'a Terrain,
+    ground: Ground<'a>,
     rules: Rules,
 }
 
@@ -155,16 +173,16 @@ impl WithSimd for Pass<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self { swarm, terrain, rules } = self;
+        let Self { swarm, ground, rules } = self;
         let mut lane = 0;
         if S::F64_LANES >= 8 {
             while lane + 8 <= swarm.stride {
-                chunk::<8>(swarm, terrain, &rules, lane);
+                chunk::<8>(swarm, &ground, &rules, lane);
                 lane += 8;
             }
         }
         while lane < swarm.stride {
-            chunk::<PAD>(swarm, terrain, &rules, lane);
+            chunk::<PAD>(swarm, &ground, &rules, lane);
             lane += PAD;
         }
     }
@@ -200,7 +218,8 @@ fn load<const W: usize>(row: &[f64], at: usize) -> [f64; W] {
 
 /// Moves and evaluates lanes `first` … `first + W − 1`.
 #[inline(always)]
-fn chunk<const W: usize>(swarm: &mut Swarm, terrain: &Terrain, rules: &Rules, first: usize) {
+fn chunk<const W: usize>(swarm: &mut Swarm, ground: &Ground<'_>, rules: &Rules, first: usize) {
+    let terrain = ground.terrain;
     let (dims, stride, dx) = (swarm.dims, swarm.stride, terrain.dx);
     let dx2 = dx * dx;
     // Slices in locals: the compiler then knows that no store moves them.
@@ -264,7 +283,7 @@ fn chunk<const W: usize>(swarm: &mut Swarm, terrain: &Terrain, rules: &Rules, fi
         }
         if terrain.has_others(j) {
             for k in 0..W {
-                hit[k] |= mask(terrain.hits_other(j, left[k], right[k]));
+                hit[k] |= mask(terrain.hits_other(ground.world, ground.columns, j, left[k], right[k]));
             }
         }
         for k in 0..W {
@@ -347,7 +366,7 @@ fn fly<const W: usize>(
 #[cfg(test)]
 mod tests {
     use env_model::geometry::point_segment_distance;
-    use env_model::{Columns, Obstacle, Point, Scene, World};
+    use env_model::{Obstacle, Point, Scene};
 
     use super::*;
     use crate::settings::VelocityLimit;
@@ -442,9 +461,10 @@ mod tests {
         let mut terrain = Terrain::default();
         terrain.compile(world, columns, settings.bounds);
         let mut swarm = Swarm::default();
-        swarm.initialise(arch, settings, &terrain, columns.half_width(), seed);
+        let ground = Ground { arch, settings, world, columns, terrain: &terrain };
+        swarm.initialise(ground, seed);
         for t in 0..settings.iterations {
-            swarm.iterate(arch, settings, &terrain, columns.half_width(), t);
+            swarm.iterate(ground, t);
         }
         swarm
     }

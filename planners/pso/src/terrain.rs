@@ -7,7 +7,7 @@
 //! interval test on its column) or the foot of the perpendicular lies inside
 //! the segment and nearer than r.
 
-use env_model::{Columns, Inflated, Point, World};
+use env_model::{Aabb, Columns, Point, World};
 
 use crate::settings::Bounds;
 
@@ -44,8 +44,8 @@ pub struct Terrain {
     pub inside: Vec<(f64, f64)>,
     /// Whether the scene has a field.
     pub has_field: bool,
-    /// Capsules and polygons in the local frame, by strip.
-    others: Vec<Inflated>,
+    /// Capsules and polygons, as indices into the world's obstacles: centres, and lists by strip.
+    others: Vec<(usize, Aabb)>,
     strip_others: Vec<usize>,
     strip_other_ends: Vec<usize>,
     /// Column spacing.
@@ -62,17 +62,16 @@ impl Terrain {
         self.dx = dx;
         self.discs.clear();
         self.others.clear();
-        for obstacle in world.obstacles() {
+        for (i, obstacle) in world.obstacles().iter().enumerate() {
             if let Some((c, r)) = obstacle.as_disc() {
                 let c = frame.to_local(c);
                 if c.x + r > 0.0 && c.x - r < length && c.y.abs() - r < reach {
                     self.discs.push((c.x, c.y, r));
                 }
             } else {
-                let local = frame.obstacle_to_local(obstacle);
-                let b = local.aabb();
+                let b = frame.aabb_of(obstacle);
                 if b.max.x > 0.0 && b.min.x < length && b.max.y > -reach && b.min.y < reach {
-                    self.others.push(local);
+                    self.others.push((i, b));
                 }
             }
         }
@@ -94,10 +93,9 @@ impl Terrain {
                     self.gaps.push(Gap { cy, half: (r * r - off * off).sqrt() });
                 }
             }
-            for (i, other) in self.others.iter().enumerate() {
-                let b = other.aabb();
+            for (i, b) in &self.others {
                 if b.max.x > left && b.min.x < right {
-                    self.strip_others.push(i);
+                    self.strip_others.push(*i);
                 }
             }
             self.strip_ends.push(self.strip_discs.len());
@@ -140,12 +138,13 @@ impl Terrain {
         &self.gaps[begin..self.gap_ends[j]]
     }
 
-    /// Whether the segment of strip j from height `a` to `b` hits a capsule or polygon.
-    pub fn hits_other(&self, j: usize, a: f64, b: f64) -> bool {
+    /// Whether the segment of strip j from height `a` to `b` hits a capsule or polygon of `world`.
+    pub fn hits_other(&self, world: &World, columns: &Columns, j: usize, a: f64, b: f64) -> bool {
         let begin = if j == 0 { 0 } else { self.strip_other_ends[j - 1] };
         let strip = &self.strip_others[begin..self.strip_other_ends[j]];
-        let (p, q) = (Point::new(j as f64 * self.dx, a), Point::new((j + 1) as f64 * self.dx, b));
-        strip.iter().any(|&i| !self.others[i].segment_free(p, q, 0.0))
+        let at = |i: usize, y: f64| columns.frame().to_world(Point::new(columns.x(i), y));
+        let (p, q) = (at(j, a), at(j + 1, b));
+        strip.iter().any(|&i| !world.obstacles()[i].segment_free(p, q, 0.0))
     }
 
     /// Whether strip j has capsules or polygons.
@@ -158,6 +157,6 @@ impl Terrain {
     /// Centres (x', y') of every obstacle that the swarm can meet, in scene order by kind.
     pub fn centres(&self) -> impl Iterator<Item = Point> + '_ {
         let discs = self.discs.iter().map(|&(cx, cy, _)| Point::new(cx, cy));
-        discs.chain(self.others.iter().map(|o| o.aabb().centre()))
+        discs.chain(self.others.iter().map(|(_, b)| b.centre()))
     }
 }
