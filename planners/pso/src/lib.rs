@@ -8,12 +8,13 @@
 //!
 //! # What keeps the bits the same everywhere
 //!
-//! Particles sit in lanes. Each lane owns a generator ([`lanes`]) and its
+//! Particles sit in lanes. Each lane owns a generator (`lanes`) and its
 //! arithmetic touches no other lane, so the width of the vector unit cannot
 //! change a result; sums over segments run in path order; there is no fused
 //! multiply-add and no transcendental function.
 
-pub mod lanes;
+mod lanes;
+mod pass;
 mod planner;
 mod settings;
 mod sides;

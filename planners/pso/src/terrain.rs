@@ -147,6 +147,11 @@ impl Terrain {
         strip.iter().any(|&i| !world.obstacles()[i].segment_free(p, q, 0.0))
     }
 
+    /// Whether there are no capsules or polygons.
+    pub fn only_discs(&self) -> bool {
+        self.others.is_empty()
+    }
+
     /// Whether strip j has capsules or polygons.
     #[inline(always)]
     pub fn has_others(&self, j: usize) -> bool {
