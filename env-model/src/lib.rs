@@ -10,6 +10,7 @@
 pub mod aabb;
 pub mod bvh;
 pub mod frame;
+pub mod generate;
 pub mod geometry;
 pub mod inflated;
 pub mod scene;

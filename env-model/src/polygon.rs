@@ -111,11 +111,15 @@ impl Polygon {
     /// over n intervals. O(n²) a step, and only for segments that enter.
     pub fn segment_signed_distance(&self, a: Point, b: Point) -> f64 {
         let d = self.sides().map(|(c, e)| segment_segment_distance(a, b, c, e)).fold(f64::INFINITY, f64::min);
-        if d > 0.0 && !self.contains(a) {
+        let outside = d > 0.0 && !self.contains(a);
+        // A segment that enters exactly through a corner may by rounding miss both its
+        // sides: what is nearer than rounding is looked at more closely.
+        let largest = self.corners.iter().chain([&a, &b]).map(|p| p.coords.amax()).fold(0.0, f64::max);
+        if outside && d > 1e-12 * largest {
             return d;
         }
         if !self.enters_deeper_than(a, b, 0.0) {
-            return 0.0;
+            return if outside { d } else { 0.0 };
         }
         let (mut lo, mut hi) = (0.0, self.aabb().diagonal());
         for _ in 0..80 {
@@ -131,7 +135,8 @@ impl Polygon {
     /// Whether some point of segment `a b` lies inside, farther than `delta` ≥ 0 from every side.
     ///
     /// Walks from cut to cut, the ends of the sides' intervals, and tests one
-    /// point between each two. O(n²), no allocation.
+    /// point between each two. O(n²), no allocation. The corners' projections are
+    /// cuts too: for δ = 0 a line through a corner may by rounding miss both its sides.
     pub fn enters_deeper_than(&self, a: Point, b: Point, delta: f64) -> bool {
         let deep = |t: f64| {
             let p = a + (b - a) * t;
@@ -140,14 +145,15 @@ impl Polygon {
         if a == b {
             return deep(0.0);
         }
+        let d = b - a;
+        let cuts = |(c, e): (Point, Point)| {
+            let corner = (c - a).dot(&d) / d.norm_squared();
+            let (t0, t1) = near_interval(a, b, c, e, delta).unwrap_or((corner, corner));
+            [t0, t1, corner]
+        };
         let mut from = 0.0;
         while from < 1.0 {
-            let next = self
-                .sides()
-                .filter_map(|(c, e)| near_interval(a, b, c, e, delta))
-                .flat_map(|(t0, t1)| [t0, t1])
-                .filter(|t| *t > from)
-                .fold(1.0, f64::min);
+            let next = self.sides().flat_map(cuts).filter(|t| *t > from).fold(1.0, f64::min);
             if deep(0.5 * (from + next)) {
                 return true;
             }

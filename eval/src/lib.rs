@@ -1,5 +1,26 @@
 //! The bench: config → runs → verdicts → scores → statistics → report.
 
+pub mod campaign;
+pub mod cli;
+pub mod config;
+pub mod error;
+pub mod export;
+pub mod machine;
+pub mod metrics;
+pub mod optimum;
+pub mod progress;
+pub mod recorder;
 pub mod report;
 pub mod results;
+pub mod runner;
+pub mod seeds;
 pub mod stats;
+pub mod store;
+pub mod table;
+pub mod trace;
+pub mod verdict;
+
+#[cfg(test)]
+mod testing;
+
+pub use error::Error;

@@ -1,3 +1,7 @@
 //! The `touchline` command.
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    eval::cli::main()
+}

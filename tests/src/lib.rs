@@ -1,1 +1,1 @@
-//! Integration tests live in `tests/`.
+//! Integration tests of the whole project live in `suite/`; reference scenes in `reference/`.

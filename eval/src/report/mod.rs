@@ -1,1 +1,130 @@
 //! `report.html`: one self-contained page, readable without JavaScript.
+//!
+//! Answer first, evidence after: a headline and the comparison table; for each
+//! scene every planner's best path and all its runs, convergence, and how gaps
+//! and times spread; settings, seeds and machine at the end. Every figure has a
+//! paragraph that says what it shows and a table with its data.
+
+mod axis;
+mod backdrop;
+mod camera;
+mod chart;
+mod convergence;
+mod format;
+mod headline;
+mod language;
+mod palette;
+mod planner_card;
+mod scene_section;
+mod strip;
+pub mod svg;
+mod tables;
+
+use std::collections::BTreeSet;
+
+use minijinja::{AutoEscape, Environment, UndefinedBehavior, Value, context};
+
+pub use language::Language;
+use language::Strings;
+use scene_section::Extent;
+
+use crate::results::{Manifest, Results, SceneResult};
+
+/// Scenes shown with every figure.
+const FULL: usize = 3;
+/// Scenes beyond these that get small pictures; the rest have their tables alone.
+const SMALL: usize = 24;
+
+/// The report of a campaign as one HTML file without outside references.
+pub fn html(results: &Results, language: Language) -> String {
+    let t = Strings::new(language);
+    let one = results.scenes.len() == 1;
+    let unit = common_unit(results);
+    let extent = |i: usize| match i {
+        i if i < FULL => Extent::Full,
+        i if i < FULL + SMALL => Extent::Small,
+        _ => Extent::Table,
+    };
+    let scenes: Vec<Value> =
+        (0..results.scenes.len()).map(|i| scene_section::section(results, i, extent(i), &t)).collect();
+    let overall = if results.scenes.len() > 1 {
+        let every: Vec<&SceneResult> = results.scenes.iter().collect();
+        context! {
+            spread => scene_section::spread(results, &every, "all-spread", &t),
+            times => scene_section::times(results, None, "all-time", &t),
+        }
+    } else {
+        Value::from(())
+    };
+    let planners: Vec<Value> = results
+        .planners
+        .iter()
+        .enumerate()
+        .map(|(i, p)| {
+            let (label, kind, settings) = (p.label.as_str(), p.kind.as_str(), p.settings.trim_end());
+            context! { label, kind, settings, swatch => Value::from_safe_string(palette::swatch(i)) }
+        })
+        .collect();
+    let css = [&palette::css_variables(), svg::FIGURE_CSS, &palette::series_css(), include_str!("style.css")].concat();
+    let name = results.scenes.first().filter(|_| one).map(|s| s.scene.name.as_str());
+    let page = context! {
+        lang => language.tag(), t => t.to_value(), name => results.name.as_str(),
+        css => Value::from_safe_string(css),
+        script => Value::from_safe_string(include_str!("script.js").to_owned()),
+        headline => headline::headline(results, &t),
+        table => tables::comparison(results, name, unit, &t),
+        warnings => warnings(&results.manifest, &t),
+        matrix => if one { Value::from(()) } else { tables::matrix(results) },
+        small_first => t.fill("scene_small_first", &[("n", &scene_section::DRAWN_SMALL.to_string())]),
+        others => results.scenes.len() > FULL,
+        overall, scenes, planners,
+        seed => results.seed.to_string(), repeats => results.repeats, seeds => seeds(results),
+        manifest => manifest(&results.manifest),
+    };
+    render(&page).unwrap_or_else(|error| {
+        // Only a mistake in the template gets here, and the tests render it.
+        format!("<!doctype html><title>report</title><pre>{}</pre>", svg::escape(&error.to_string()))
+    })
+}
+
+fn render(page: &Value) -> Result<String, minijinja::Error> {
+    let mut environment = Environment::new();
+    environment.set_auto_escape_callback(|_| AutoEscape::Html);
+    environment.set_undefined_behavior(UndefinedBehavior::Strict);
+    environment.add_template("page.html", include_str!("page.html"))?;
+    environment.get_template("page.html")?.render(page)
+}
+
+/// The scenes' unit, empty when they differ.
+fn common_unit(results: &Results) -> &str {
+    let units: BTreeSet<&str> = results.scenes.iter().map(|s| s.scene.unit.as_str()).collect();
+    if units.len() == 1 { units.first().copied().unwrap_or("") } else { "" }
+}
+
+fn warnings(manifest: &Manifest, t: &Strings) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if manifest.jobs > 1 {
+        warnings.push(t.fill("note_jobs", &[("n", &manifest.jobs.to_string())]));
+    }
+    if manifest.profile == "debug" {
+        warnings.push(t.get("note_debug").to_owned());
+    }
+    warnings
+}
+
+fn manifest(m: &Manifest) -> Value {
+    context! {
+        version => m.version.as_str(), profile => m.profile.as_str(), platform => m.platform.as_str(),
+        cpu => m.cpu.as_str(), cores => m.cores, jobs => m.jobs, started => m.started.as_str(),
+        finished => m.finished.as_str(), identity => m.identity.as_str(),
+    }
+}
+
+/// Seeds are the same for every planner: one line a scene and repeat.
+fn seeds(results: &Results) -> Vec<Value> {
+    let seeds: BTreeSet<(&str, u32, u64)> = results.runs.iter().map(|r| (r.scene.as_str(), r.repeat, r.seed)).collect();
+    seeds.into_iter().map(|(scene, repeat, seed)| context! { scene, repeat, seed => seed.to_string() }).collect()
+}
+
+#[cfg(test)]
+mod tests;

@@ -44,9 +44,9 @@ pub struct Terrain {
     pub inside: Vec<(f64, f64)>,
     /// Whether the scene has a field.
     pub has_field: bool,
-    /// Capsules and polygons, as indices into the world's obstacles: centres, and lists by strip.
+    /// Capsules and polygons, as indices into the world's obstacles, with their boxes: all, and by strip.
     others: Vec<(usize, Aabb)>,
-    strip_others: Vec<usize>,
+    strip_others: Vec<(usize, Aabb)>,
     strip_other_ends: Vec<usize>,
     /// Column spacing.
     pub dx: f64,
@@ -95,7 +95,7 @@ impl Terrain {
             }
             for (i, b) in &self.others {
                 if b.max.x > left && b.min.x < right {
-                    self.strip_others.push(*i);
+                    self.strip_others.push((*i, *b));
                 }
             }
             self.strip_ends.push(self.strip_discs.len());
@@ -142,9 +142,11 @@ impl Terrain {
     pub fn hits_other(&self, world: &World, columns: &Columns, j: usize, a: f64, b: f64) -> bool {
         let begin = if j == 0 { 0 } else { self.strip_other_ends[j - 1] };
         let strip = &self.strip_others[begin..self.strip_other_ends[j]];
+        let (low, high) = (a.min(b), a.max(b));
         let at = |i: usize, y: f64| columns.frame().to_world(Point::new(columns.x(i), y));
-        let (p, q) = (at(j, a), at(j + 1, b));
-        strip.iter().any(|&i| !world.obstacles()[i].segment_free(p, q, 0.0))
+        strip.iter().any(|(i, aabb)| {
+            low < aabb.max.y && high > aabb.min.y && !world.obstacles()[*i].segment_free(at(j, a), at(j + 1, b), 0.0)
+        })
     }
 
     /// Whether there are no capsules or polygons.

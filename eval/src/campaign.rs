@@ -1,0 +1,133 @@
+//! A comparison made ready to run: worlds compiled, optima known, identity fixed.
+
+use std::time::Instant;
+
+use env_model::{Scene, SceneError, World};
+use planner_api::{PlanError, Problem};
+
+use crate::config::{BudgetSpec, Comparison};
+use crate::results::{Optimum, PlannerInfo, Results, SceneResult};
+use crate::seeds::fnv1a_128;
+use crate::{machine, optimum};
+
+/// A scene of a campaign.
+pub struct Arena {
+    /// The scene itself.
+    pub scene: Scene,
+    /// The scene compiled.
+    pub world: World,
+    /// How long that took, µs.
+    pub compile_us: f64,
+}
+
+impl Arena {
+    /// Compiles a scene.
+    pub fn new(scene: Scene) -> Result<Self, SceneError> {
+        let began = Instant::now();
+        let world = World::new(&scene)?;
+        let compile_us = micros(began);
+        scene.validate_ends(&world)?;
+        Ok(Self { scene, world, compile_us })
+    }
+
+    /// From the scene's start to its goal.
+    pub fn problem(&self) -> Result<Problem<'_>, PlanError> {
+        Problem::new(&self.world, self.scene.start(), self.scene.goal())
+    }
+
+    /// The scene and its exact optimum, or why that is not known.
+    pub fn result(&self) -> SceneResult {
+        SceneResult { scene: self.scene.clone(), optimum: self.optimum() }
+    }
+
+    fn optimum(&self) -> Optimum {
+        match self.problem() {
+            Ok(problem) => optimum::of(&problem),
+            Err(e) => Optimum { length: None, path: Vec::new(), reason: Some(e.to_string()) },
+        }
+    }
+}
+
+/// Microseconds since `began`, to the nanosecond.
+pub fn micros(began: Instant) -> f64 {
+    began.elapsed().as_nanos() as f64 / 1000.0
+}
+
+/// A comparison ready to run.
+pub struct Campaign {
+    /// What is compared.
+    pub comparison: Comparison,
+    /// Its scenes, compiled, in its order.
+    pub arenas: Vec<Arena>,
+}
+
+impl Campaign {
+    /// Compiles every scene.
+    pub fn new(comparison: Comparison) -> Result<Self, SceneError> {
+        let arenas = comparison.scenes.iter().cloned().map(Arena::new).collect::<Result<_, _>>()?;
+        Ok(Self { comparison, arenas })
+    }
+
+    /// How many runs it makes, warm-ups aside.
+    pub fn run_count(&self) -> usize {
+        self.arenas.len() * self.comparison.planners.len() * self.comparison.repeats as usize
+    }
+
+    /// Identity: 128-bit FNV-1a hash of resolved comparison, scenes and program version, in hexadecimal.
+    pub fn identity(&self) -> String {
+        let mut text = format!("touchline {}\0{}", env!("CARGO_PKG_VERSION"), self.comparison.to_toml());
+        for scene in &self.comparison.scenes {
+            text.push('\0');
+            text.push_str(&scene.to_toml());
+        }
+        format!("{:032x}", fnv1a_128(text.as_bytes()))
+    }
+
+    /// What one line says before the campaign begins.
+    pub fn size(&self, jobs: usize) -> String {
+        let Comparison { name, seed, repeats, planners, .. } = &self.comparison;
+        let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+        let mut line = format!(
+            "{name}: {} × {} × {} = {}, seed {seed}, {}",
+            count(planners.len(), "planner"),
+            count(self.arenas.len(), "scene"),
+            count(*repeats as usize, "repeat"),
+            count(self.run_count(), "run"),
+            count(jobs, "job"),
+        );
+        let limits: Option<Vec<f64>> = planners.iter().map(|p| p.budget.time_ms).collect();
+        if let Some(limits) = limits {
+            let runs = f64::from(*repeats) + jobs as f64; // a warm-up for each job
+            let worst = limits.iter().sum::<f64>() * 1e-3 * self.arenas.len() as f64 * runs / jobs as f64;
+            line.push_str(&format!(", at most about {worst:.0} s"));
+        }
+        line
+    }
+
+    /// The results before the first run: everything but runs.
+    pub fn empty_results(&self, jobs: usize) -> Results {
+        let Comparison { name, seed, repeats, planners, .. } = &self.comparison;
+        let mut manifest = machine::manifest(jobs);
+        manifest.identity = self.identity();
+        Results {
+            name: name.clone(),
+            seed: *seed,
+            repeats: *repeats,
+            planners: planners
+                .iter()
+                .map(|p| {
+                    let mut settings = p.settings_toml();
+                    if p.budget != BudgetSpec::default() {
+                        let budget = toml::Value::try_from(p.budget).map_or_else(|e| e.to_string(), |b| b.to_string());
+                        // Before the settings, whose last lines may belong to a sub-table.
+                        settings = format!("budget = {budget}\n{settings}");
+                    }
+                    PlannerInfo { label: p.label.clone(), kind: p.kind.clone(), settings }
+                })
+                .collect(),
+            scenes: self.arenas.iter().map(Arena::result).collect(),
+            runs: Vec::new(),
+            manifest,
+        }
+    }
+}

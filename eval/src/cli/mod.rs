@@ -1,0 +1,240 @@
+//! The `touchline` command line.
+//!
+//! Exit codes: 0 done, whatever the planners achieved; 1 a check that was asked
+//! for failed (`--fail-on`); 2 bad usage or input, and then nothing was written.
+
+mod check;
+mod list;
+mod output;
+mod plan;
+mod report;
+mod run;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+use crate::error::Error;
+
+const EXAMPLES: &str = "\
+Examples:
+  touchline                                       the 2012 experiment into results/lu-sun-2012
+  touchline run my.toml --out out --jobs 2        a comparison of your own
+  touchline run my.toml --planner pso,tangent     only these two of its planners
+  touchline plan scene.toml --planner pso-qp --svg path.svg
+  touchline plan scene.toml --planner pso --set particles=30 --seed 7 --trace swarm.jsonl
+  touchline check configs/scenes/*.toml           is it well-formed?
+  touchline report out                            report.html and tables again from out/runs.db
+
+Exit codes: 0 done, whatever the planners achieved; 1 --fail-on found something; 2 bad usage or input.";
+
+/// Compares 2D path planners for robot soccer: every path is judged by an
+/// independent exact test and scored against the true optimum.
+#[derive(Parser)]
+#[command(name = "touchline", version, after_help = EXAMPLES, args_conflicts_with_subcommands = true)]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+    #[command(flatten)]
+    run: RunArgs,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Run a comparison; without a file, the embedded experiment of Lu & Sun (2012)
+    #[command(after_help = EXAMPLES)]
+    Run(RunArgs),
+    /// Plan once in one scene
+    Plan(PlanArgs),
+    /// Make report and exports again from the stored runs of a campaign
+    Report(ReportArgs),
+    /// List what there is
+    List(ListArgs),
+    /// Validate scenes and comparisons without running them
+    Check(CheckArgs),
+    /// Not yet: what of a campaign is done and what is missing
+    Status(NotYetArgs),
+    /// Not yet: join shards
+    Merge(NotYetArgs),
+    /// Not yet: what changed between two campaigns
+    Compare(NotYetArgs),
+    /// Not yet: plan for a bench in another process
+    Worker(NotYetArgs),
+}
+
+#[derive(Args)]
+struct NotYetArgs {
+    #[arg(trailing_var_arg = true, allow_hyphen_values = true, hide = true)]
+    rest: Vec<String>,
+}
+
+/// When a completed campaign counts as failed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum FailOn {
+    /// A run without a valid path
+    Invalid,
+    /// A run that ended in an error
+    Error,
+}
+
+#[derive(Args)]
+struct RunArgs {
+    /// Comparison file (TOML); default: the embedded 2012 experiment
+    comparison: Option<PathBuf>,
+    /// Folder for the results; default results/NAME, numbered when taken
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Seed instead of the comparison's
+    #[arg(long, value_parser = clap::value_parser!(u64).range(..=i64::MAX as u64))]
+    seed: Option<u64>,
+    /// Repeats instead of the comparison's
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..))]
+    repeats: Option<u32>,
+    /// Threads; results are the same, but times are only fair with 1
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    jobs: u16,
+    /// Only the planners of these labels
+    #[arg(long, value_name = "LABEL", num_args = 1.., value_delimiter = ',')]
+    planner: Vec<String>,
+    /// Say what would be run, and run nothing
+    #[arg(long)]
+    dry_run: bool,
+    /// Print nothing but errors
+    #[arg(long)]
+    quiet: bool,
+    /// Exit with 1 when any run is without a valid path, or ended in an error
+    #[arg(long, value_name = "WHAT")]
+    fail_on: Option<FailOn>,
+    /// Not yet: go on with an interrupted campaign
+    #[arg(long)]
+    resume: bool,
+    /// Not yet: only part I of N, counted from 1
+    #[arg(long, value_name = "I/N")]
+    shard: Option<String>,
+    /// Not yet: every planner in a process of its own
+    #[arg(long)]
+    isolate: bool,
+}
+
+#[derive(Args)]
+struct PlanArgs {
+    /// Scene file (TOML)
+    scene: PathBuf,
+    /// Kind of planner, see `touchline list planners`
+    #[arg(long, value_name = "KIND")]
+    planner: String,
+    /// A setting, as in a comparison: a TOML value, else text; dots reach into tables (budget.iterations=10)
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Seed of the run, e.g. from the seed column of runs.csv
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Print the result as JSON
+    #[arg(long)]
+    json: bool,
+    /// Draw scene, optimum and path
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// Write one JSON line for every frame (particles, velocities, …), from a second, untimed run
+    #[arg(long, value_name = "FILE")]
+    trace: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// report.html
+    Html,
+    /// runs.csv and summary.csv
+    Csv,
+    /// paths.jsonl and manifest.json
+    Json,
+    /// Not yet: a benchmark log of OMPL
+    Ompl,
+    /// Not yet: data for `IOHanalyzer`
+    Ioh,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Tongue {
+    /// English
+    En,
+    /// Chinese
+    Zh,
+}
+
+#[derive(Args)]
+struct ReportArgs {
+    /// Folder of a campaign
+    dir: PathBuf,
+    /// What to make; default: everything
+    #[arg(long, value_name = "FORMAT", value_delimiter = ',')]
+    format: Vec<Format>,
+    /// Language of report.html
+    #[arg(long, default_value = "en")]
+    language: Tongue,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Listed {
+    Planners,
+    Generators,
+    Metrics,
+}
+
+#[derive(Args)]
+struct ListArgs {
+    /// Of what
+    what: Listed,
+    /// As JSON
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Args)]
+struct CheckArgs {
+    /// Scene and comparison files
+    #[arg(required = true)]
+    files: Vec<PathBuf>,
+}
+
+/// Parses the command line, does the work, prints errors to standard error.
+pub fn main() -> ExitCode {
+    let cli = Cli::parse();
+    let outcome = match cli.command {
+        None => run::run(&cli.run),
+        Some(Command::Run(args)) => run::run(&args),
+        Some(Command::Plan(args)) => plan::plan(&args),
+        Some(Command::Report(args)) => report::report(&args),
+        Some(Command::List(args)) => list::list(&args),
+        Some(Command::Check(args)) => check::check(&args),
+        Some(Command::Status(args)) => not_yet("touchline status", &args),
+        Some(Command::Merge(args)) => not_yet("touchline merge", &args),
+        Some(Command::Compare(args)) => not_yet("touchline compare", &args),
+        Some(Command::Worker(args)) => not_yet("touchline worker", &args),
+    };
+    outcome.unwrap_or_else(|error| {
+        eprintln!("error: {error}");
+        ExitCode::from(2)
+    })
+}
+
+fn not_yet(what: &str, args: &NotYetArgs) -> Result<ExitCode, Error> {
+    Err(Error::NotYet(format!("{what} {}", args.rest.join(" ")).trim_end().to_owned()))
+}
+
+/// Prints a line to standard output; a closed pipe (`| head`) is no failure.
+fn say(line: impl std::fmt::Display) {
+    use std::io::Write;
+    let _ = writeln!(std::io::stdout(), "{line}");
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        super::Cli::command().debug_assert();
+    }
+}

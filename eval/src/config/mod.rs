@@ -1,0 +1,182 @@
+//! Comparison files: TOML to a validated [`Comparison`], with errors that name
+//! file, line, column and what was expected.
+//!
+//! ```toml
+//! name = "lu-sun-2012"
+//! seed = 1                          # default 1
+//! repeats = 30                      # default 30
+//! scenes = ["scenes/lu-sun-2012.toml", { generate = "wall", count = 20, obstacles = 21, seed = 2 }]
+//! budget = { iterations = 400 }     # optional; also evaluations, time_ms
+//!
+//! [planner.pso]                     # the key is the label; kind defaults to it
+//! velocity_limit = 0.5
+//! budget = { evaluations = 8000 }   # replaces single keys of the common budget
+//! ```
+//!
+//! Paths are relative to the file.
+
+mod files;
+mod planners;
+mod scenes;
+#[cfg(test)]
+mod tests;
+
+use std::collections::BTreeMap;
+
+use env_model::source::Source;
+use env_model::{FileError, Scene};
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+pub use files::{Disk, EMBEDDED_NAME, Embedded, Files};
+pub use planners::{BudgetSpec, Factory, PlannerEntry, from_settings, single};
+pub use scenes::refuse_motion;
+
+/// A comparison, resolved: scenes read or generated, planners built once, every setting known.
+pub struct Comparison {
+    /// What results call it; also a folder's name.
+    pub name: String,
+    /// All randomness of runs comes from here; < 2⁶³, so that TOML holds it.
+    pub seed: u64,
+    /// Runs per planner and scene, ≥ 1.
+    pub repeats: u32,
+    /// The scenes, names unique.
+    pub scenes: Vec<Scene>,
+    /// The planners in the file's order, labels unique.
+    pub planners: Vec<PlannerEntry>,
+}
+
+/// The file's own keys. `scenes` and `planner` are read by hand for the sake of their places.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Head {
+    name: Spanned<String>,
+    seed: Option<Spanned<i64>>,
+    repeats: Option<Spanned<i64>>,
+    scenes: Option<IgnoredAny>,
+    #[expect(dead_code, reason = "here so that it is a known key")]
+    budget: Option<IgnoredAny>,
+    planner: Option<IgnoredAny>,
+}
+
+impl Comparison {
+    /// Reads a comparison. `path` is the file as the user named it; `files` reads its scenes.
+    pub fn from_toml(path: &str, text: &str, files: &dyn Files) -> Result<Self, FileError> {
+        let source = Source { path, text };
+        let mut table = source.parse_toml()?;
+        let head: Head = from_table(&source, table.clone())?;
+        for (key, found) in [("scenes", head.scenes.is_some()), ("planner", head.planner.is_some())] {
+            if !found {
+                let expected =
+                    if key == "scenes" { "scenes = [\"scene.toml\", …]" } else { "a table [planner.LABEL]" };
+                return Err(source.error_at(0..0, format!("an empty comparison: no {key}; expected {expected}")));
+            }
+        }
+        let name = head.name.get_ref();
+        if !is_folder_name(name) {
+            return Err(source.error_at(
+                head.name.span(),
+                format!("name = {name:?}; expected letters, digits, spaces and . _ - (it names a folder)"),
+            ));
+        }
+        let seed = head.seed.map_or(Ok(1), |seed| {
+            u64::try_from(*seed.get_ref()).map_err(|_| {
+                source.error_at(seed.span(), format!("seed = {}; expected an integer of at least 0", seed.get_ref()))
+            })
+        })?;
+        let repeats = head.repeats.map_or(Ok(30), |repeats| {
+            u32::try_from(*repeats.get_ref()).ok().filter(|r| *r > 0).ok_or_else(|| {
+                let found = repeats.get_ref();
+                source.error_at(repeats.span(), format!("repeats = {found}; expected an integer of at least 1"))
+            })
+        })?;
+        let entries = table.get_mut();
+        let budget = match entries.remove("budget") {
+            Some(value) => BudgetSpec::default().overridden(&source, value)?,
+            None => BudgetSpec::default(),
+        };
+        let planners = planners::read(&source, entries.remove("planner"), budget)?;
+        let scenes = scenes::read(&source, entries.remove("scenes"), files)?;
+        Ok(Self { name: name.clone(), seed, repeats, scenes, planners })
+    }
+
+    /// Keeps only the planners of these labels, in the file's order; `Err` names the first label that is none.
+    pub fn keep_planners(&mut self, labels: &[String]) -> Result<(), String> {
+        if let Some(unknown) = labels.iter().find(|label| self.planners.iter().all(|p| p.label != **label)) {
+            let known: Vec<&str> = self.planners.iter().map(|p| p.label.as_str()).collect();
+            let hint = if unknown.ends_with(".toml") { " (name the comparison before --planner)" } else { "" };
+            return Err(format!(
+                "--planner {unknown}: no such label in comparison {}{hint}; expected some of: {}",
+                self.name,
+                known.join(", ")
+            ));
+        }
+        self.planners.retain(|p| labels.contains(&p.label));
+        Ok(())
+    }
+
+    /// The comparison with everything said: reading it back gives the same one. Its scenes are
+    /// the files `scenes/<name>.toml` next to it, see [`Comparison::scene_files`].
+    pub fn to_toml(&self) -> String {
+        let text = |s: &str| toml::Value::String(s.to_owned()).to_string();
+        let scenes: Vec<String> = self.scene_files().iter().map(|f| format!("    {},\n", text(f))).collect();
+        let mut out = format!(
+            "name = {}\nseed = {}\nrepeats = {}\nscenes = [\n{}]\n",
+            text(&self.name),
+            self.seed,
+            self.repeats,
+            scenes.concat()
+        );
+        for planner in &self.planners {
+            out.push('\n');
+            out.push_str(&planner.to_toml());
+        }
+        out
+    }
+
+    /// Where [`Comparison::to_toml`] expects each scene, relative to itself: names made
+    /// safe for every file system, and unique even where case does not count.
+    pub fn scene_files(&self) -> Vec<String> {
+        let mut taken: BTreeMap<String, u32> = BTreeMap::new();
+        let files = self.scenes.iter().map(|scene| {
+            let safe = |c: char| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' };
+            let mut stem: String = scene.name.chars().take(80).map(safe).collect();
+            if stem.starts_with('.') {
+                stem.insert(0, '_'); // no hidden files
+            }
+            let count = taken.entry(stem.to_lowercase()).and_modify(|n| *n += 1).or_insert(1);
+            // "~" is no safe character, so numbered names never meet others.
+            if *count > 1 { format!("scenes/{stem}~{count}.toml") } else { format!("scenes/{stem}.toml") }
+        });
+        files.collect()
+    }
+}
+
+fn from_table<'i, T: Deserialize<'i>>(source: &Source<'_>, table: Spanned<DeTable<'i>>) -> Result<T, FileError> {
+    T::deserialize(toml::Deserializer::from(table)).map_err(|e| source.toml_error(&e))
+}
+
+/// The table in `value`, or an error that says what else it is.
+fn table_of<'i>(
+    source: &Source<'_>,
+    value: Spanned<DeValue<'i>>,
+    expected: &str,
+) -> Result<Spanned<DeTable<'i>>, FileError> {
+    let span = value.span();
+    match value.into_inner() {
+        DeValue::Table(table) => Ok(Spanned::new(span, table)),
+        other => Err(source.error_at(span, format!("found {}; expected {expected}", other.type_str()))),
+    }
+}
+
+fn is_folder_name(name: &str) -> bool {
+    let safe = |c: char| c.is_alphanumeric() || " ._-".contains(c);
+    !name.trim().is_empty()
+        && name.len() <= 200
+        && name.trim() == name
+        && !name.starts_with('.')
+        && !name.ends_with('.')
+        && name.chars().all(safe)
+}

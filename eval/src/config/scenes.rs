@@ -1,0 +1,98 @@
+//! The `scenes` of a comparison: files and generators.
+
+use env_model::generate::{Generator, Request};
+use env_model::source::Source;
+use env_model::{FileError, Scene};
+use serde::Deserialize;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::{Files, from_table};
+
+const EXPECTED: &str = "a path or { generate = \"wall\", count = 20, obstacles = 21, seed = 2 }";
+/// More would be a slip of the pen.
+const MOST: u32 = 100_000;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Generated {
+    generate: Spanned<String>,
+    count: Option<Spanned<u32>>,
+    obstacles: Option<usize>,
+    /// Of the generator, not of the runs. Default 1.
+    seed: Option<u64>,
+}
+
+pub(super) fn read(
+    source: &Source<'_>,
+    value: Option<Spanned<DeValue<'_>>>,
+    files: &dyn Files,
+) -> Result<Vec<Scene>, FileError> {
+    let Some(value) = value else { return Ok(Vec::new()) };
+    let span = value.span();
+    let entries = match value.into_inner() {
+        DeValue::Array(entries) => entries,
+        other => return Err(source.error_at(span, format!("found {}; expected an array of scenes", other.type_str()))),
+    };
+    if entries.is_empty() {
+        return Err(source.error_at(span, format!("an empty comparison: no scenes; expected {EXPECTED}")));
+    }
+    let mut scenes: Vec<Scene> = Vec::new();
+    for entry in entries {
+        let span = entry.span();
+        let new = match entry.into_inner() {
+            DeValue::String(path) => vec![from_file(source, &path, span.clone(), files)?],
+            DeValue::Table(table) => generated(source, Spanned::new(span.clone(), table))?,
+            other => return Err(source.error_at(span, format!("found {}; expected {EXPECTED}", other.type_str()))),
+        };
+        for scene in new {
+            if let Err(message) = refuse_motion(&scene) {
+                return Err(source.error_at(span, message));
+            }
+            if scenes.iter().any(|s| s.name == scene.name) {
+                let message = format!("a second scene named {:?}; expected different names", scene.name);
+                return Err(source.error_at(span, message));
+            }
+            scenes.push(scene);
+        }
+    }
+    Ok(scenes)
+}
+
+fn from_file(
+    source: &Source<'_>,
+    path: &str,
+    span: std::ops::Range<usize>,
+    files: &dyn Files,
+) -> Result<Scene, FileError> {
+    let (name, text) = files.read(path).map_err(|e| source.error_at(span, format!("{e}; expected a scene file")))?;
+    Scene::from_toml(&name, &text)
+}
+
+fn generated(source: &Source<'_>, table: Spanned<DeTable<'_>>) -> Result<Vec<Scene>, FileError> {
+    let span = table.span();
+    let request: Generated = from_table(source, table)?;
+    let name = request.generate.get_ref();
+    let generator = Generator::from_name(name).map_err(|e| source.error_at(request.generate.span(), e.to_string()))?;
+    let count = request.count.map_or(Ok(1), |count| match *count.get_ref() {
+        n @ 1..=MOST => Ok(n),
+        n => Err(source.error_at(count.span(), format!("count = {n}; expected 1 to {MOST}"))),
+    })?;
+    let request = Request { generator, count, obstacles: request.obstacles, seed: request.seed.unwrap_or(1) };
+    request.scenes().collect::<Result<_, _>>().map_err(|e| source.error_at(span, e.to_string()))
+}
+
+/// Static comparisons want obstacles at rest.
+pub fn refuse_motion(scene: &Scene) -> Result<(), String> {
+    let moving = scene.obstacles.iter().position(|o| o.velocity.is_some_and(|v| v != [0.0, 0.0]));
+    moving.map_or(Ok(()), |index| {
+        let velocity = scene.obstacles[index].velocity.unwrap_or_default();
+        Err(format!(
+            "scene {:?}: {} moves with velocity [{}, {}]; expected obstacles at rest",
+            scene.name,
+            scene.describe(index),
+            velocity[0],
+            velocity[1]
+        ))
+    })
+}

@@ -1,0 +1,181 @@
+use super::*;
+
+const GOOD: &str = r#"name = "demo"
+seed = 7
+repeats = 3
+scenes = ["a.toml", { generate = "wall", count = 2, obstacles = 5, seed = 4 }]
+budget = { iterations = 50 }
+
+[planner.tangent]
+[planner.swarm]
+kind = "pso"
+particles = 10
+budget = { evaluations = 300 }
+"#;
+
+const SCENE: &str = r#"name = "a"
+start = [0.0, 0.0]
+goal = [10.0, 0.0]
+[[obstacle]]
+disc = { centre = [5.0, 0.0], radius = 1.0 }
+"#;
+
+/// Scenes in memory.
+struct Memory;
+
+impl Files for Memory {
+    fn read(&self, relative: &str) -> Result<(String, String), String> {
+        let scene = |from: &str, to: &str| {
+            assert!(SCENE.contains(from));
+            Ok((relative.to_owned(), SCENE.replace(from, to)))
+        };
+        match relative {
+            "a.toml" => scene("a", "a"),
+            "b.toml" => scene("\"a\"", "\"b\""),
+            "inside.toml" => scene("start = [0.0", "start = [5.5"),
+            "moving.toml" => scene("radius = 1.0 }", "radius = 1.0 }\nvelocity = [0.0, 0.5]\nlabel = \"runner\""),
+            "bow-tie.toml" => {
+                scene("disc = { centre = [5.0, 0.0], radius = 1.0 }", "polygon = [[1, 1], [2, 2], [2, 1], [1, 2]]")
+            }
+            _ => Err(format!("cannot read {relative}: no such file")),
+        }
+    }
+}
+
+fn read(text: &str) -> Result<Comparison, String> {
+    Comparison::from_toml("c.toml", text, &Memory).map_err(|e| e.to_string())
+}
+
+#[test]
+fn a_good_file_is_understood_in_its_own_order() {
+    let c = read(GOOD).unwrap();
+    assert_eq!((c.name.as_str(), c.seed, c.repeats), ("demo", 7, 3));
+    let scenes: Vec<_> = c.scenes.iter().map(|s| (s.name.as_str(), s.obstacles.len())).collect();
+    assert_eq!(scenes, [("a", 1), ("wall-s4-00", 5), ("wall-s4-01", 5)]);
+    let planners: Vec<_> = c.planners.iter().map(|p| (p.label.as_str(), p.kind.as_str())).collect();
+    assert_eq!(planners, [("tangent", "tangent"), ("swarm", "pso")], "not the alphabet's order");
+    assert_eq!(c.planners[0].budget, BudgetSpec { iterations: Some(50), ..BudgetSpec::default() });
+    let merged = BudgetSpec { iterations: Some(50), evaluations: Some(300), time_ms: None };
+    assert_eq!(c.planners[1].budget, merged, "key by key");
+    assert_eq!(c.planners[1].settings["particles"].as_integer(), Some(10));
+    assert_eq!(c.planners[1].settings["columns"].as_integer(), Some(20), "defaults are written out");
+    let c = read("name = \"demo\"\nscenes = [\"a.toml\"]\n[planner.tangent]").unwrap();
+    assert_eq!((c.seed, c.repeats), (1, 30), "defaults");
+}
+
+#[test]
+fn the_resolved_file_says_everything_and_reads_back() {
+    struct Copies<'c>(&'c Comparison);
+    impl Files for Copies<'_> {
+        fn read(&self, relative: &str) -> Result<(String, String), String> {
+            let i = self.0.scene_files().iter().position(|f| f == relative).ok_or("no such copy")?;
+            Ok((relative.to_owned(), self.0.scenes[i].to_toml()))
+        }
+    }
+    let text = GOOD.replace("[planner.swarm]", "[planner.\"a.b c\"]\nkind = \"pso-qp\"\n[planner.swarm]");
+    let first = read(&text).unwrap();
+    let resolved = first.to_toml();
+    let second =
+        Comparison::from_toml("again", &resolved, &Copies(&first)).unwrap_or_else(|e| panic!("{e}\n{resolved}"));
+    assert_eq!(second.to_toml(), resolved);
+    assert_eq!(second.scenes, first.scenes);
+    let labels = |c: &Comparison| c.planners.iter().map(|p| p.label.clone()).collect::<Vec<_>>();
+    assert_eq!(labels(&first), labels(&second));
+    assert!(resolved.contains("columns = 20"), "{resolved}");
+}
+
+#[test]
+fn mistakes_are_named_with_their_place() {
+    let cases = [
+        ("name = \"demo\"\n", "", "c.toml:1:1: missing field `name`"),
+        ("name = \"demo\"", "name = demo", "c.toml:1:8: "),
+        ("name = \"demo\"", "name = \"../demo\"", "c.toml:1:8: name = \"../demo\"; expected letters"),
+        ("name = \"demo\"", "name = \"\"", "c.toml:1:8: name = \"\""),
+        ("seed = 7", "sed = 7", "c.toml:2:1: unknown field `sed`, expected one of `name`, `seed`"),
+        ("seed = 7", "seed = -7", "c.toml:2:8: seed = -7; expected an integer of at least 0"),
+        ("seed = 7", "seed = 7.5", "c.toml:2:8: invalid type: floating point `7.5`"),
+        ("repeats = 3", "repeats = 0", "c.toml:3:11: repeats = 0; expected an integer of at least 1"),
+        ("repeats = 3", "repeats = \"3\"", "c.toml:3:11: invalid type: string \"3\""),
+        ("repeats = 3", "repeats = 5000000000", "c.toml:3:11: repeats = 5000000000"),
+        ("\"a.toml\",", "\"missing.toml\",", "c.toml:4:11: cannot read missing.toml"),
+        ("\"a.toml\",", "5,", "c.toml:4:11: found integer; expected a path or { generate"),
+        ("\"a.toml\",", "\"a.toml\", \"a.toml\",", "c.toml:4:21: a second scene named \"a\"; expected different names"),
+        ("\"a.toml\",", "\"inside.toml\",", "inside.toml:2:9: start (5.500, 0.000) is 0.5000 inside obstacle 0"),
+        ("\"a.toml\",", "\"bow-tie.toml\",", "bow-tie.toml:5:11: obstacle 0: sides 0 and 2 (counted from 0) cross"),
+        (
+            "\"a.toml\",",
+            "\"moving.toml\",",
+            "c.toml:4:11: scene \"a\": obstacle 0 (\"runner\") moves with velocity [0, 0.5]; expected obstacles at rest",
+        ),
+        ("\"wall\"", "\"walls\"", "c.toml:4:34: unknown generator \"walls\"; expected one of open, wall"),
+        ("\"wall\"", "7", "c.toml:4:34: invalid type: integer `7`"),
+        ("count = 2", "count = 0", "c.toml:4:50: count = 0; expected 1 to 100000"),
+        ("count = 2", "cuont = 2", "c.toml:4:42: unknown field `cuont`"),
+        ("obstacles = 5", "obstacles = 1", "c.toml:4:21: generator wall with 1 obstacles; expected at least 3"),
+        ("budget = { iterations = 50 }", "budget = 50", "c.toml:5:10: found integer; expected a table such as"),
+        ("budget = { iterations = 50 }", "budget = {}", "c.toml:5:10: an empty budget"),
+        ("iterations = 50", "iterations = -1", "c.toml:5:25: invalid value: integer `-1`"),
+        ("iterations = 50", "time_ms = nan", "c.toml:5:10: time_ms = NaN; expected a number above 0"),
+        ("iterations = 50", "time_ms = 0", "c.toml:5:10: time_ms = 0; expected a number above 0"),
+        ("iterations = 50", "time = 1", "c.toml:5:12: unknown field `time`"),
+        ("[planner.tangent]", "[planner.tangnet]", "c.toml:7:10: unknown planner \"tangnet\"; expected one of"),
+        ("kind = \"pso\"", "kind = \"psso\"", "c.toml:9:8: unknown planner \"psso\"; expected one of"),
+        ("kind = \"pso\"", "kind = 3", "c.toml:9:8: kind is of type integer"),
+        ("kind = \"pso\"", "kind = \"external\"", "c.toml:9:8: not yet: planners of kind \"external\""),
+        ("particles = 10", "hard_limit_ms = 10", "c.toml:10:17: not yet: the key hard_limit_ms"),
+        ("particles = 10", "particles = 0", "c.toml:10:13: particles = 0; expected"),
+        ("particles = 10", "columns = 0", "c.toml:10:11: columns = 0; expected"),
+        ("particles = 10", "particles = \"ten\"", "c.toml:10:13: invalid type: string \"ten\""),
+        ("particles = 10", "particels = 10", "c.toml:10:1: unknown field `particels`"),
+        ("particles = 10", "velocity_limit = inf", "c.toml:10:18: velocity_limit = inf"),
+        ("particles = 10", "particles = 1\nparticles = 2", "c.toml:11:1: duplicate key"),
+        ("evaluations = 300", "evaluation = 300", "c.toml:11:12: unknown field `evaluation`"),
+        ("[planner.swarm]", "[planner.\"\"]", "c.toml:8:10: planner label \"\"; expected printable text"),
+    ];
+    for (from, to, expected) in cases {
+        assert!(GOOD.contains(from), "{from}");
+        let message = read(&GOOD.replacen(from, to, 1)).err().unwrap_or_else(|| panic!("{to}: accepted"));
+        assert!(message.starts_with(expected), "{to}:\n  {message}\n  {expected}");
+    }
+}
+
+#[test]
+fn an_empty_comparison_is_a_mistake() {
+    let cases = [
+        ("", "c.toml:1:1: missing field `name`"),
+        ("name = \"x\"\n[planner.tangent]", "c.toml:1:1: an empty comparison: no scenes"),
+        ("name = \"x\"\nscenes = []\n[planner.tangent]", "c.toml:2:10: an empty comparison: no scenes"),
+        ("name = \"x\"\nscenes = [\"a.toml\"]", "c.toml:1:1: an empty comparison: no planner"),
+        ("name = \"x\"\nscenes = [\"a.toml\"]\n[planner]", "c.toml:3:1: an empty comparison: no planner"),
+        ("name = \"x\"\nscenes = [\"a.toml\"]\nplanner = 3", "c.toml:3:11: found integer; expected tables"),
+        ("name = \"x\"\nscenes = \"a.toml\"\n[planner.tangent]", "c.toml:2:10: found string; expected an array"),
+    ];
+    for (text, expected) in cases {
+        let message = read(text).err().unwrap_or_else(|| panic!("{text}: accepted"));
+        assert!(message.starts_with(expected), "{text}:\n  {message}");
+    }
+}
+
+#[test]
+fn copies_of_scenes_have_safe_and_different_names() {
+    let mut c = read(GOOD).unwrap();
+    for (scene, name) in c.scenes.iter_mut().zip(["../../etc/x", "Wall", "wall"]) {
+        scene.name = name.to_owned();
+    }
+    assert_eq!(c.scene_files(), ["scenes/_.._.._etc_x.toml", "scenes/Wall.toml", "scenes/wall~2.toml"]);
+}
+
+#[test]
+fn planners_can_be_picked_by_label() {
+    let mut c = read(GOOD).unwrap();
+    let error = c.keep_planners(&["swarm".into(), "pso".into()]).unwrap_err();
+    assert!(error.starts_with("--planner pso: no such label in comparison demo; expected some of: tangent, swarm"));
+    c.keep_planners(&["swarm".into()]).unwrap();
+    assert_eq!(c.planners.len(), 1);
+}
+
+#[test]
+fn the_embedded_comparison_is_sound() {
+    let c = Comparison::from_toml(EMBEDDED_NAME, Embedded::COMPARISON, &Embedded).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!((c.repeats, c.scenes.len(), c.planners.len()), (30, 1, 7));
+}

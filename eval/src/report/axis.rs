@@ -1,0 +1,121 @@
+//! Axes: linear and logarithmic scales with round ticks.
+
+/// A map from values to a coordinate of the picture.
+#[derive(Debug, Clone, Copy)]
+pub struct Axis {
+    lo: f64,
+    hi: f64,
+    log: bool,
+    from: f64,
+    to: f64,
+}
+
+impl Axis {
+    /// Maps [lo, hi] linearly to [from, to]. An empty range is widened.
+    pub fn linear(lo: f64, hi: f64, from: f64, to: f64) -> Self {
+        let pad = if hi > lo { 0.0 } else { 0.5 * lo.abs().max(1.0) };
+        Self { lo: lo - pad, hi: hi + pad, log: false, from, to }
+    }
+
+    /// Maps [lo, hi], 0 < lo, logarithmically to [from, to]. Less than half a decade is widened.
+    pub fn log(lo: f64, hi: f64, from: f64, to: f64) -> Self {
+        let pad = if hi > 3.0 * lo { 1.0 } else { 2.0 };
+        Self { lo: lo / pad, hi: hi * pad, log: true, from, to }
+    }
+
+    /// A logarithmic axis when `values` span more than `ratio`, else a linear one; `None` without finite values.
+    ///
+    /// Values from 0 to `floor` are as good as 0: a logarithmic axis draws them on
+    /// its edge, which then lies well below the least of the others.
+    pub fn fitting(values: impl Iterator<Item = f64>, ratio: f64, floor: f64, from: f64, to: f64) -> Option<Self> {
+        let (mut lo, mut hi, mut positive) = (f64::INFINITY, f64::NEG_INFINITY, f64::INFINITY);
+        for v in values.filter(|v| v.is_finite()) {
+            lo = lo.min(v);
+            hi = hi.max(v);
+            if v >= floor {
+                positive = positive.min(v);
+            }
+        }
+        if lo > hi {
+            return None;
+        }
+        if lo >= 0.0 && positive.is_finite() && (hi > ratio * positive || lo < floor && hi > ratio * floor) {
+            let edge = if lo < floor { positive / 5.0 } else { positive };
+            return Some(Self::log(edge, hi, from, to));
+        }
+        let pad = 0.04 * (hi - lo);
+        Some(Self::linear(if lo >= 0.0 { (lo - pad).max(0.0) } else { lo - pad }, hi + pad, from, to))
+    }
+
+    /// Whether it is logarithmic.
+    pub fn is_log(&self) -> bool {
+        self.log
+    }
+
+    /// The coordinate of `value`; what lies outside is drawn on the edge.
+    pub fn at(&self, value: f64) -> f64 {
+        let v = value.clamp(self.lo, self.hi);
+        let share =
+            if self.log { (v / self.lo).ln() / (self.hi / self.lo).ln() } else { (v - self.lo) / (self.hi - self.lo) };
+        self.from + share * (self.to - self.from)
+    }
+
+    /// The value at share 0 ≤ s ≤ 1 of the axis.
+    pub fn value_at(&self, s: f64) -> f64 {
+        if self.log { self.lo * (self.hi / self.lo).powf(s) } else { self.lo + s * (self.hi - self.lo) }
+    }
+
+    /// About `wanted` round values inside the range.
+    pub fn ticks(&self, wanted: usize) -> Vec<f64> {
+        let wanted = wanted.max(1) as f64;
+        let slack = 1e-9;
+        if self.log {
+            let decades = (self.hi / self.lo).log10();
+            let exponents = || (self.lo.log10() - slack).ceil() as i32..=(self.hi.log10() + slack).floor() as i32;
+            if decades >= 2.0 {
+                let step = (decades / wanted).ceil().max(1.0) as i32;
+                return exponents().filter(|e| e.rem_euclid(step) == 0).map(|e| 10f64.powi(e)).collect();
+            }
+            let inside = |v: &f64| *v >= self.lo * (1.0 - slack) && *v <= self.hi * (1.0 + slack);
+            let first = self.lo.log10().floor() as i32;
+            let last = self.hi.log10().ceil() as i32;
+            return (first..=last).flat_map(|e| [1.0, 2.0, 5.0].map(|m| m * 10f64.powi(e))).filter(inside).collect();
+        }
+        let raw = (self.hi - self.lo) / wanted;
+        let magnitude = 10f64.powf(raw.log10().floor());
+        let step = [1.0, 2.0, 5.0, 10.0].map(|m| m * magnitude).into_iter().find(|s| *s >= raw).unwrap_or(raw);
+        let first = (self.lo / step - slack).ceil() as i64;
+        let last = (self.hi / step + slack).floor() as i64;
+        (first..=last).map(|k| k as f64 * step).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn linear_ticks_are_round() {
+        let ticks = Axis::linear(0.0, 8020.0, 0.0, 1.0).ticks(5);
+        assert_eq!(ticks, [0.0, 2000.0, 4000.0, 6000.0, 8000.0]);
+    }
+
+    #[test]
+    fn log_ticks_are_decades_or_1_2_5() {
+        assert_eq!(Axis::log(1.0, 1e4, 0.0, 1.0).ticks(5).len(), 5);
+        assert_eq!(Axis::log(1e-7, 1e5, 0.0, 1.0).ticks(6).len(), 6, "every second decade");
+        assert_eq!(Axis::log(1.5, 30.0, 0.0, 1.0).ticks(5), [2.0, 5.0, 10.0, 20.0]);
+    }
+
+    #[test]
+    fn range_decides_the_kind() {
+        let fit = |v: &[f64]| Axis::fitting(v.iter().copied(), 50.0, 1e-8, 0.0, 100.0);
+        assert!(fit(&[1e-6, 0.05]).is_some_and(|a| a.is_log()));
+        assert!(fit(&[230.0, 260.0]).is_some_and(|a| !a.is_log()));
+        assert!(fit(&[0.0, 0.0]).is_some_and(|a| !a.is_log()), "one value");
+        assert!(fit(&[f64::INFINITY]).is_none(), "failures alone");
+        let axis = fit(&[0.0, 1e-6, 0.05]).unwrap();
+        assert_eq!(axis.at(0.0), 0.0, "zero is drawn on the edge of a logarithmic axis");
+        assert!(axis.at(1e-6) > 5.0, "apart from the least value");
+    }
+}

@@ -1,0 +1,156 @@
+//! Every word of the page, one dictionary a language.
+
+use std::collections::BTreeMap;
+
+use minijinja::Value;
+
+/// The language of a report.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Language {
+    /// English.
+    #[default]
+    English,
+    /// Simplified Chinese.
+    Chinese,
+}
+
+impl Language {
+    /// The page's `lang` attribute (BCP 47).
+    pub fn tag(self) -> &'static str {
+        match self {
+            Self::English => "en",
+            Self::Chinese => "zh-Hans",
+        }
+    }
+
+    fn source(self) -> &'static str {
+        match self {
+            Self::English => include_str!("strings/en.toml"),
+            Self::Chinese => include_str!("strings/zh.toml"),
+        }
+    }
+}
+
+/// A dictionary.
+#[derive(Debug, Clone)]
+pub struct Strings {
+    entries: BTreeMap<String, String>,
+}
+
+impl Strings {
+    /// Reads the dictionary of `language`.
+    pub fn new(language: Language) -> Self {
+        // The dictionaries are part of the program and tested: an unreadable one is
+        // shown as its keys rather than ending a campaign in a panic.
+        Self { entries: toml::from_str(language.source()).unwrap_or_default() }
+    }
+
+    /// The words for `key`; the key itself where the dictionary lacks it.
+    pub fn get<'a>(&'a self, key: &'a str) -> &'a str {
+        self.entries.get(key).map_or(key, String::as_str)
+    }
+
+    /// The words for `key` with every `{name}` replaced. Plain text, not escaped.
+    pub fn fill(&self, key: &str, values: &[(&str, &str)]) -> String {
+        // One pass, so that a value that looks like a placeholder stays as it is.
+        let (mut out, mut rest) = (String::new(), self.get(key));
+        while let Some((before, after)) = rest.split_once('{') {
+            out.push_str(before);
+            let Some((name, tail)) = after.split_once('}') else {
+                out.push('{');
+                rest = after;
+                continue;
+            };
+            match values.iter().find(|(n, _)| *n == name) {
+                Some((_, value)) => out.push_str(value),
+                None => out.push_str(&format!("{{{name}}}")),
+            }
+            rest = tail;
+        }
+        out + rest
+    }
+
+    /// `one` for a count of 1, else `many`, both with `{n}`.
+    pub fn plural(&self, n: usize, one: &str, many: &str) -> String {
+        self.fill(if n == 1 { one } else { many }, &[("n", &super::format::count(n as f64))])
+    }
+
+    /// "a, b and c" for a list of words.
+    pub fn list(&self, words: &[String]) -> String {
+        match words {
+            [] => String::new(),
+            [one] => one.clone(),
+            [first @ .., last] => first.join(self.get("list_comma")) + self.get("list_and") + last,
+        }
+    }
+
+    /// The dictionary for templates.
+    pub fn to_value(&self) -> Value {
+        Value::from(self.entries.clone())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn placeholders(text: &str) -> Vec<&str> {
+        let mut names: Vec<&str> = text.split('{').skip(1).filter_map(|s| s.split_once('}')).map(|(n, _)| n).collect();
+        names.sort_unstable();
+        names.dedup();
+        names
+    }
+
+    #[test]
+    fn both_languages_have_the_same_keys_and_placeholders() {
+        let (en, zh) = (Strings::new(Language::English), Strings::new(Language::Chinese));
+        assert!(en.entries.len() > 50, "the dictionary is there");
+        let keys = |s: &Strings| s.entries.keys().cloned().collect::<Vec<_>>();
+        assert_eq!(keys(&en), keys(&zh));
+        for (key, text) in &en.entries {
+            assert_eq!(placeholders(text), placeholders(zh.get(key)), "placeholders of {key}");
+        }
+    }
+
+    #[test]
+    fn every_key_used_exists_and_every_key_is_used() {
+        let sources = [
+            include_str!("page.html"),
+            include_str!("scene_section.rs"),
+            include_str!("planner_card.rs"),
+            include_str!("convergence.rs"),
+            include_str!("strip.rs"),
+            include_str!("tables.rs"),
+            include_str!("headline.rs"),
+            include_str!("svg.rs"),
+            include_str!("backdrop.rs"),
+            include_str!("language.rs"),
+            include_str!("mod.rs"),
+        ]
+        .concat();
+        let en = Strings::new(Language::English);
+        for key in en.entries.keys() {
+            let used = sources.contains(&format!("\"{key}\""))
+                || sources.split(&format!("t.{key}")).skip(1).any(|s| s.starts_with([' ', ')', ',']))
+                || key.starts_with("status_");
+            assert!(used, "{key} is never used");
+        }
+        let page = include_str!("page.html");
+        for (at, _) in page.match_indices("t.").filter(|(at, _)| !page[..*at].ends_with(|c: char| c.is_alphanumeric()))
+        {
+            let key: String = page[at + 2..].chars().take_while(|c| c.is_ascii_alphanumeric() || *c == '_').collect();
+            assert!(en.entries.contains_key(&key), "the page uses t.{key}");
+        }
+        for status in crate::results::RunStatus::ALL {
+            assert!(en.entries.contains_key(&format!("status_{}", status.name())), "{}", status.name());
+        }
+    }
+
+    #[test]
+    fn filling_is_one_pass() {
+        let mut s = Strings { entries: BTreeMap::new() };
+        s.entries.insert("k".into(), "{a} of {b}".into());
+        assert_eq!(s.fill("k", &[("a", "{b}"), ("b", "2")]), "{b} of 2");
+        assert_eq!(s.fill("k", &[("a", "1")]), "1 of {b}");
+    }
+}

@@ -1,0 +1,255 @@
+//! The page as a whole: complete, escaped, well formed, and whole with poor data.
+
+use env_model::{Obstacle, Point, Scene, Shape};
+
+use super::svg::{PathLayer, scene_svg};
+use super::*;
+use crate::results::{Optimum, PlannerInfo, Progress, RunRecord, RunStatus};
+
+/// A run with a path of that length, or without path.
+pub fn run(scene: &str, planner: &str, repeat: u32, length: Option<f64>) -> RunRecord {
+    let path =
+        length.map_or(Vec::new(), |l| vec![Point::new(0.0, 0.0), Point::new(5.0, l - 10.0), Point::new(10.0, 0.0)]);
+    RunRecord {
+        scene: scene.to_owned(),
+        planner: planner.to_owned(),
+        repeat,
+        seed: 1000 + u64::from(repeat),
+        status: if length.is_some() { RunStatus::Solved } else { RunStatus::NotFound },
+        valid: length.is_some(),
+        length,
+        gap: length.map(|l| l / 10.0 - 1.0),
+        clearance_min: length.map(|_| 0.1),
+        turning: length.map(|_| 0.5),
+        iterations: 10,
+        evaluations: 200,
+        collision_checks: 4000,
+        time_us: 12.5,
+        cpu_us: 12.0,
+        error: None,
+        path,
+        progress: Vec::new(),
+    }
+}
+
+fn scene(name: &str) -> Scene {
+    let mut scene = Scene {
+        name: name.to_owned(),
+        unit: "cm".to_owned(),
+        robot_radius: 0.5,
+        start: [0.0, 0.0],
+        goal: [10.0, 0.0],
+        field: None,
+        obstacles: vec![
+            Obstacle::disc(Point::new(3.0, 3.0), 1.0),
+            Shape::Capsule { from: [5.0, -3.0], to: [7.0, -4.0], radius: 0.5 }.into(),
+            Shape::Polygon(vec![[6.0, 4.0], [8.0, 4.0], [7.0, 6.0]]).into(),
+        ],
+    };
+    scene.obstacles[0].label = Some("<b>opponent & \"3\"</b>".to_owned());
+    scene
+}
+
+fn results(planners: &[&str], scenes: &[&str], repeats: u32) -> Results {
+    let mut runs = Vec::new();
+    for s in scenes {
+        for (i, p) in planners.iter().enumerate() {
+            for k in 0..repeats {
+                let mut r = run(s, p, k, (k % 5 != 4 || i == 0).then_some(10.0 + 0.1 * f64::from(k) + i as f64));
+                r.progress = (0..8)
+                    .map(|j| Progress {
+                        evaluations: 1 << j,
+                        time_us: f64::from(j),
+                        cost: 10.0 + 1e4 / f64::from(1 << (2 * j)),
+                    })
+                    .collect();
+                runs.push(r);
+            }
+        }
+    }
+    let optimum = Optimum { length: Some(10.0), path: vec![Point::new(0.0, 0.0), Point::new(10.0, 0.0)], reason: None };
+    let planner =
+        |p: &&str| PlannerInfo { label: (*p).to_owned(), kind: "pso".into(), settings: "particles = 20\n".into() };
+    Results {
+        name: "test".into(),
+        seed: 1,
+        repeats,
+        planners: planners.iter().map(planner).collect(),
+        scenes: scenes.iter().map(|s| SceneResult { scene: scene(s), optimum: optimum.clone() }).collect(),
+        runs,
+        manifest: Manifest { version: "0.1.0".into(), jobs: 1, cores: 2, ..Manifest::default() },
+    }
+}
+
+/// Every tag in `markup` is closed in order. Returns what is wrong.
+fn unbalanced(markup: &str) -> Option<String> {
+    let mut open: Vec<&str> = Vec::new();
+    let mut rest = markup;
+    while let Some((_, after)) = rest.split_once('<') {
+        let Some((tag, tail)) = after.split_once('>') else { return Some(format!("unfinished <{after}")) };
+        if tag.matches('"').count() % 2 == 1 {
+            return Some(format!("odd quotes in <{tag}>"));
+        }
+        if let Some(name) = tag.strip_prefix('/') {
+            if open.pop() != Some(name) {
+                return Some(format!("</{name}> closes nothing"));
+            }
+        } else if !tag.ends_with('/') {
+            open.push(tag.split([' ', '\n']).next().unwrap_or(tag));
+        }
+        rest = tail;
+    }
+    open.pop().map(|tag| format!("<{tag}> is not closed"))
+}
+
+/// Checks that hold for every page.
+fn check(page: &str) {
+    assert!(page.starts_with("<!doctype html>"), "{}", &page[..page.len().min(300)]);
+    assert!(page.trim_end().ends_with("</html>"));
+    for bad in ["NaN", ">inf<", ">None<", ">none<", "undefined:", "http:", "https:", "//cdn", "@import"] {
+        assert!(
+            !page.contains(bad),
+            "{bad:?} near {:?}",
+            page.split_once(bad).map(|(b, _)| &b[b.len().saturating_sub(80)..])
+        );
+    }
+    for svg in page.split("<svg").skip(1) {
+        let svg = format!("<svg{}</svg>", svg.split_once("</svg>").expect("closed").0);
+        assert_eq!(unbalanced(&svg), None, "{svg:.400}");
+    }
+    let mut ids: Vec<&str> = page.split(" id=\"").skip(1).filter_map(|s| s.split_once('"')).map(|(id, _)| id).collect();
+    let all = ids.len();
+    ids.sort_unstable();
+    ids.dedup();
+    assert_eq!(ids.len(), all, "ids are unique");
+    for target in page.split("#").skip(1).filter_map(|s| s.split_once(['"', ')'])).map(|(id, _)| id) {
+        if target.starts_with('s') && target.len() < 40 && !target.contains(['{', ';', ' ']) {
+            assert!(ids.binary_search(&target).is_ok(), "#{target} leads somewhere");
+        }
+    }
+}
+
+#[test]
+fn the_page_holds_every_planner_and_figure() {
+    let results = results(&["straight-line", "pso", "pso-qp"], &["one"], 10);
+    for language in [Language::English, Language::Chinese] {
+        let page = html(&results, language);
+        check(&page);
+        assert!(page.contains(&format!("<html lang=\"{}\"", language.tag())));
+        for planner in ["straight-line", "pso", "pso-qp"] {
+            assert!(page.contains(&format!("<span>{planner}</span>")), "{planner}");
+        }
+        // Two pictures a planner, convergence, gaps, times.
+        assert_eq!(page.matches("<figcaption>").count(), 3 * 2 + 3);
+        assert_eq!(page.matches("class=\"fig").count(), 3 * 2 + 3);
+    }
+}
+
+#[test]
+fn labels_cannot_break_out() {
+    let evil = "<script>alert(\"1\")</script>'&规划器";
+    let mut results = results(&["pso", evil], &[evil], 5);
+    results.name = evil.to_owned();
+    results.runs[0].error = Some(evil.to_owned());
+    results.scenes[0].optimum = Optimum { length: None, path: Vec::new(), reason: Some(evil.to_owned()) };
+    results.planners[1].settings = format!("command = [\"{evil}\"]");
+    results.manifest.cpu = evil.to_owned();
+    let page = html(&results, Language::English);
+    check(&page);
+    assert!(!page.contains("<script>alert"), "escaped everywhere");
+    assert_eq!(page.matches("<script>").count(), 1, "only our own");
+    assert!(page.contains("规划器"));
+    let picture = scene_svg(
+        &results.scenes[0].scene,
+        None,
+        &[PathLayer { label: evil, points: &results.runs[0].path, valid: true, series: 0 }],
+    );
+    assert_eq!(unbalanced(&picture), None, "{picture}");
+    assert!(!picture.contains("<script"));
+}
+
+#[test]
+fn poor_data_does_not_break_the_page() {
+    let full = || results(&["a", "b"], &["one"], 6);
+    let mut nothing_valid = full();
+    for r in &mut nothing_valid.runs {
+        (r.valid, r.gap, r.clearance_min) = (false, None, Some(-0.3));
+    }
+    let mut no_paths = full();
+    for r in &mut no_paths.runs {
+        (r.valid, r.gap, r.length, r.status) = (false, None, None, RunStatus::Infeasible);
+        r.path.clear();
+        r.progress.clear();
+    }
+    let mut hostile = full();
+    for (k, r) in hostile.runs.iter_mut().enumerate() {
+        r.path = vec![Point::new(0.0, 0.0), Point::new([f64::NAN, f64::INFINITY, 1e300][k % 3], 0.0)];
+        r.progress[0].cost = [f64::NAN, f64::INFINITY, -1.0][k % 3];
+        r.time_us = 0.0;
+        (r.valid, r.gap, r.length, r.turning) = (false, None, Some(f64::NAN), Some(f64::NAN));
+    }
+    let mut no_runs = full();
+    no_runs.runs.clear();
+    let mut nothing = results(&[], &[], 0);
+    nothing.manifest = Manifest::default();
+    let one_run = results(&["a"], &["one"], 1);
+    let mut no_optimum = full();
+    no_optimum.scenes[0].optimum = Optimum { length: None, path: Vec::new(), reason: None };
+    let cases = [nothing_valid, no_paths, hostile, no_runs, nothing, one_run, no_optimum];
+    for (i, results) in cases.iter().enumerate() {
+        let page = html(results, Language::English);
+        assert!(page.contains("id=\"machine\""), "case {i} has its end");
+        check(&page);
+    }
+}
+
+#[test]
+fn many_scenes_are_folded() {
+    let names: Vec<String> = (0..30).map(|i| format!("wall-s2-{i:02}")).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let page = html(&results(&["a", "b"], &names, 2), Language::English);
+    check(&page);
+    assert_eq!(page.matches("<section class=\"scene\"").count(), FULL);
+    assert_eq!(page.matches("<details class=\"scene\"").count(), 30 - FULL);
+    for name in names {
+        assert!(page.contains(&format!("<summary>{name}</summary>")) || page.contains(&format!("</span> {name}</h2>")));
+    }
+}
+
+#[test]
+fn large_campaigns_stay_small() {
+    let labels: Vec<String> = (0..20).map(|i| format!("planner-{i}")).collect();
+    let labels: Vec<&str> = labels.iter().map(String::as_str).collect();
+    let mut results = results(&labels, &["one"], 200);
+    for (i, r) in results.runs.iter_mut().enumerate() {
+        // Different paths of 22 points, as the 2012 planner's are.
+        r.path = (0..22)
+            .map(|k| Point::new(10.0 * f64::from(k) / 21.0, ((i * 31 + k as usize * 17) % 97) as f64 * 0.03))
+            .collect();
+    }
+    let size = html(&results, Language::English).len();
+    // The target for the largest page that a browser still opens at once is 12 MB; one scene may take half.
+    assert!(size < 6_000_000, "{size} bytes");
+}
+
+#[test]
+fn a_picture_stands_alone() {
+    let scene = Scene { field: Some(env_model::scene::Field { min: [-2.0, -6.0], max: [12.0, 8.0] }), ..scene("one") };
+    let path = [Point::new(0.0, 0.0), Point::new(10.0, 0.0)];
+    let layers = [
+        PathLayer { label: "pso", points: &path, valid: true, series: 1 },
+        PathLayer { label: "bad", points: &path, valid: false, series: 2 },
+    ];
+    let picture = scene_svg(&scene, Some(&path), &layers);
+    assert_eq!(unbalanced(&picture), None, "{picture}");
+    assert!(picture.starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\""));
+    assert!(!picture.contains("var(") && !picture.contains("NaN"));
+    for words in ["pso", "bad (invalid)", "exact optimum", "start", "goal"] {
+        assert!(picture.contains(&format!(">{words}</text>")), "{words}");
+    }
+    // y points up: the field's top edge (y = 8) is drawn above its bottom edge, so its rectangle has a height.
+    let field = picture.split_once("class=\"field\"").unwrap().1.split_once("/>").unwrap().0;
+    let height: f64 = field.split_once("height=\"").unwrap().1.split_once('"').unwrap().0.parse().unwrap();
+    assert!(height > 100.0, "{field}");
+    assert_eq!(scene_svg(&scene, None, &[]).matches("</text>").count(), picture.matches("</text>").count() - 3);
+}

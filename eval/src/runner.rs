@@ -1,0 +1,332 @@
+//! Makes the runs of a campaign, fairly.
+//!
+//! The unit of work is (scene, repeat): every planner runs in it once, with the
+//! same seed, in an order shuffled for that unit ([`seeds::turn_order`]). Each
+//! planner is reset before each run and has one warm-up in each scene (and on
+//! each thread), which does not count. The timed call is `plan_into` alone.
+//! Judging and storing come after the clock has stopped. Every thread has its
+//! own planners, so results but for times do not depend on the number of jobs.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc;
+
+use cpu_time::ThreadTime;
+use planner_api::{Plan, Planner, Problem, Run, Status};
+
+use crate::campaign::{Arena, Campaign, micros};
+use crate::config::PlannerEntry;
+use crate::recorder::Recorder;
+use crate::results::{RunRecord, RunStatus};
+use crate::verdict::{Fault, Judge};
+use crate::{metrics, seeds};
+
+/// Makes all runs with `jobs` ≥ 1 threads and hands each to `sink` on the calling thread, in no
+/// particular order. `optima` are the scenes' optimal lengths. Ends early with the sink's error.
+pub fn run<E>(
+    campaign: &Campaign,
+    optima: &[Option<f64>],
+    jobs: usize,
+    mut sink: impl FnMut(RunRecord) -> Result<(), E>,
+) -> Result<(), E> {
+    let repeats = campaign.comparison.repeats as usize;
+    let units = campaign.arenas.len() * repeats;
+    if jobs == 1 {
+        let mut worker = Worker::new(campaign, optima);
+        return (0..units).try_for_each(|unit| worker.unit(unit / repeats, (unit % repeats) as u32, &mut sink));
+    }
+    let (next, stop) = (AtomicUsize::new(0), AtomicBool::new(false));
+    std::thread::scope(|scope| {
+        let (sender, receiver) = mpsc::channel();
+        for _ in 0..jobs.min(units) {
+            let (sender, next, stop) = (sender.clone(), &next, &stop);
+            scope.spawn(move || {
+                let mut worker = Worker::new(campaign, optima);
+                while !stop.load(Ordering::Relaxed) {
+                    let unit = next.fetch_add(1, Ordering::Relaxed);
+                    let mut send = |record| sender.send(record).map_err(drop);
+                    if unit >= units || worker.unit(unit / repeats, (unit % repeats) as u32, &mut send).is_err() {
+                        break;
+                    }
+                }
+            });
+        }
+        drop(sender);
+        let outcome = receiver.iter().try_for_each(&mut sink);
+        stop.store(true, Ordering::Relaxed);
+        outcome
+    })
+}
+
+/// One thread's planners and buffers.
+struct Worker<'c> {
+    campaign: &'c Campaign,
+    optima: &'c [Option<f64>],
+    planners: Vec<Box<dyn Planner>>,
+    plan: Plan,
+    recorder: Recorder,
+    /// The scene in which the planners are warm.
+    warm: Option<usize>,
+}
+
+impl<'c> Worker<'c> {
+    fn new(campaign: &'c Campaign, optima: &'c [Option<f64>]) -> Self {
+        let planners = campaign.comparison.planners.iter().map(|entry| (entry.make)()).collect();
+        Self { campaign, optima, planners, plan: Plan::new(), recorder: Recorder::new(), warm: None }
+    }
+
+    fn unit<E>(
+        &mut self,
+        scene: usize,
+        repeat: u32,
+        sink: &mut impl FnMut(RunRecord) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let comparison = &self.campaign.comparison;
+        let arena = &self.campaign.arenas[scene];
+        let seed = seeds::run_seed(comparison.seed, &arena.scene.name, repeat);
+        let order = seeds::turn_order(comparison.seed, &arena.scene.name, repeat, comparison.planners.len());
+        let warm_up = self.warm != Some(scene);
+        self.warm = Some(scene);
+        let judge = Judge::new(&arena.scene);
+        for index in order {
+            let entry = &comparison.planners[index];
+            if warm_up {
+                self.one(index, entry, arena, seed, &judge, self.optima[scene]);
+            }
+            let mut record = self.one(index, entry, arena, seed, &judge, self.optima[scene]);
+            record.repeat = repeat;
+            sink(record)?;
+        }
+        Ok(())
+    }
+
+    fn one(
+        &mut self,
+        index: usize,
+        entry: &PlannerEntry,
+        arena: &Arena,
+        seed: u64,
+        judge: &Judge<'_>,
+        optimum: Option<f64>,
+    ) -> RunRecord {
+        let planner = &mut self.planners[index];
+        let (record, broken) = run_once(planner.as_mut(), entry, arena, seed, &mut self.plan, &mut self.recorder);
+        if broken {
+            // Its state is anyone's guess.
+            *planner = (entry.make)();
+        }
+        judged(record, judge, optimum)
+    }
+}
+
+/// Resets `planner` and times one call. Also says whether the planner panicked. The record is not
+/// judged yet: see [`judged`]. Its path is empty where the planner has none.
+pub fn run_once(
+    planner: &mut dyn Planner,
+    entry: &PlannerEntry,
+    arena: &Arena,
+    seed: u64,
+    plan: &mut Plan,
+    recorder: &mut Recorder,
+) -> (RunRecord, bool) {
+    let mut record = RunRecord {
+        scene: arena.scene.name.clone(),
+        planner: entry.label.clone(),
+        repeat: 0,
+        seed,
+        status: RunStatus::Error,
+        valid: false,
+        length: None,
+        gap: None,
+        clearance_min: None,
+        turning: None,
+        iterations: 0,
+        evaluations: 0,
+        collision_checks: 0,
+        time_us: 0.0,
+        cpu_us: 0.0,
+        error: None,
+        path: Vec::new(),
+        progress: Vec::new(),
+    };
+    let problem: Problem<'_> = match arena.problem() {
+        Ok(problem) => problem,
+        Err(e) => {
+            record.error = Some(e.to_string());
+            return (record, false);
+        }
+    };
+    plan.clear();
+    let cpu_began = ThreadTime::now();
+    let began = recorder.begin();
+    let outcome = catch_unwind(AssertUnwindSafe(|| {
+        planner.reset();
+        // The clocks begin again: resetting is not planning.
+        let (cpu_began, began) = (ThreadTime::now(), recorder.begin());
+        let mut run = Run::new(seed).with_budget(entry.budget.begin()).with_observer(recorder);
+        let status = planner.plan_into(&problem, &mut run, plan);
+        (status, micros(began), cpu_began.elapsed())
+    }));
+    let (status, time_us, cpu) = match outcome {
+        Ok(outcome) => outcome,
+        Err(panic) => {
+            let message = panic
+                .downcast_ref::<&str>()
+                .map(|s| (*s).to_owned())
+                .or_else(|| panic.downcast_ref::<String>().cloned())
+                .unwrap_or_else(|| "without a message".to_owned());
+            record.error = Some(format!("the planner panicked: {message}"));
+            record.time_us = micros(began);
+            record.cpu_us = cpu_began.elapsed().as_nanos() as f64 / 1000.0;
+            return (record, true);
+        }
+    };
+    record.time_us = time_us;
+    record.cpu_us = cpu.as_nanos() as f64 / 1000.0;
+    record.iterations = plan.counters.iterations;
+    record.evaluations = plan.counters.evaluations;
+    record.collision_checks = plan.counters.collision_checks;
+    record.progress = recorder.improvements().to_vec();
+    match status {
+        Ok(status) => {
+            record.status = match status {
+                Status::Solved => RunStatus::Solved,
+                Status::BudgetSpent => RunStatus::BudgetSpent,
+                Status::NotFound => RunStatus::NotFound,
+                Status::Infeasible => RunStatus::Infeasible,
+            };
+            record.path.clone_from(&plan.path);
+        }
+        Err(e) => record.error = Some(e.to_string()),
+    }
+    (record, false)
+}
+
+/// The record with the judge's verdict and all metrics.
+pub fn judged(mut record: RunRecord, judge: &Judge<'_>, optimum: Option<f64>) -> RunRecord {
+    let verdict = judge.verdict(&record.path);
+    record.valid = verdict.is_ok();
+    match verdict {
+        // A path with a NaN cannot be stored, measured or drawn.
+        Err(fault @ Fault::NotFinite { .. }) => {
+            record.status = RunStatus::Error;
+            record.error = Some(fault.to_string());
+            record.path.clear();
+        }
+        Err(fault @ (Fault::WrongStart(_) | Fault::WrongGoal(_))) => record.error = Some(fault.to_string()),
+        _ => {}
+    }
+    if record.path.len() >= 2 {
+        let length = metrics::length(&record.path);
+        record.length = length.is_finite().then_some(length);
+        record.turning = Some(metrics::turning(&record.path)).filter(|t| t.is_finite());
+        record.clearance_min = judge.clearance(&record.path).filter(|c| c.is_finite());
+        if record.valid
+            && let (Some(length), Some(optimum)) = (record.length, optimum)
+        {
+            record.gap = Some(metrics::gap(length, optimum));
+        }
+    }
+    record
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{
+        campaign, detour, entry, not_finite, nothing, panic_on_odd, refusal, short_of_goal, straight,
+    };
+
+    fn runs(jobs: usize) -> Vec<RunRecord> {
+        let planners = vec![
+            entry("straight", straight),
+            entry("detour", detour),
+            entry("nothing", nothing),
+            entry("refusal", refusal),
+            entry("panic", panic_on_odd),
+            entry("nan", not_finite),
+            entry("short", short_of_goal),
+        ];
+        let campaign = campaign(planners);
+        let mut runs = Vec::new();
+        run(&campaign, &[Some(10.0), None], jobs, |r| {
+            runs.push(r);
+            Ok::<(), ()>(())
+        })
+        .unwrap();
+        runs.sort_by(|a, b| (&a.scene, &a.planner, a.repeat).cmp(&(&b.scene, &b.planner, b.repeat)));
+        runs
+    }
+
+    #[test]
+    fn every_way_to_end_becomes_a_row() {
+        let runs = runs(1);
+        assert_eq!(runs.len(), 2 * 7 * 5, "nothing is dropped");
+        let of = |planner: &'static str| runs.iter().filter(move |r| r.planner == planner);
+        assert!(of("straight").all(|r| r.status == RunStatus::Solved && !r.valid && r.length == Some(10.0)));
+        assert!(of("straight").all(|r| r.clearance_min == Some(-1.0) && r.turning == Some(0.0) && r.gap.is_none()));
+        assert!(of("detour").all(|r| r.status == RunStatus::BudgetSpent && r.valid && r.error.is_none()));
+        for r in of("detour") {
+            let gap = (r.scene == "b-scene").then(|| r.length.unwrap() / 10.0 - 1.0);
+            assert_eq!(r.gap, gap, "only where the optimum is known");
+            let curve: Vec<_> = r.progress.iter().map(|p| (p.evaluations, p.cost)).collect();
+            assert_eq!(curve, [(2, 9.0), (4, 8.5)], "improvements alone");
+            assert_eq!((r.iterations, r.evaluations), (1, 4), "reset before each run");
+        }
+        assert!(of("nothing").all(|r| r.status == RunStatus::NotFound && r.length.is_none() && r.turning.is_none()));
+        assert!(of("refusal").all(|r| r.status == RunStatus::Error && r.error.as_deref() == Some("no, \"thanks\"")));
+        for r in of("panic") {
+            let odd = r.seed % 2 == 1;
+            assert_eq!(r.status == RunStatus::Error, odd);
+            assert_eq!(r.error.clone(), odd.then(|| format!("the planner panicked: seed {} is odd", r.seed)));
+            assert_eq!(r.valid, !odd, "and the next run is none the worse for it");
+        }
+        assert!(of("panic").any(|r| r.valid) && of("panic").any(|r| !r.valid), "both happened");
+        assert!(of("nan").all(|r| r.status == RunStatus::Error && r.path.is_empty() && r.length.is_none()));
+        assert!(of("short").all(|r| !r.valid && r.error.as_deref().is_some_and(|e| e.contains("not at the goal"))));
+        let seeds = |planner| of(planner).map(|r| r.seed).collect::<Vec<_>>();
+        assert_eq!(seeds("straight"), seeds("nan"), "paired");
+    }
+
+    #[test]
+    fn jobs_change_nothing_but_times() {
+        let timeless = |jobs| {
+            let mut runs = runs(jobs);
+            for r in &mut runs {
+                (r.time_us, r.cpu_us) = (0.0, 0.0);
+                r.progress.iter_mut().for_each(|p| p.time_us = 0.0);
+            }
+            runs
+        };
+        assert_eq!(timeless(1), timeless(3));
+    }
+
+    #[test]
+    fn a_deadline_counts_from_the_call() {
+        let mut patient = entry("patient", nothing);
+        patient.budget.time_ms = Some(5.0);
+        patient.make = Box::new(|| Box::new(crate::testing::Patient));
+        let mut times = Vec::new();
+        run(&campaign(vec![patient]), &[None, None], 1, |r| {
+            assert_eq!(r.status, RunStatus::BudgetSpent);
+            times.push(r.time_us);
+            Ok::<(), ()>(())
+        })
+        .unwrap();
+        // The clock starts a moment before the deadline is set, so a run lasts at least the budget; the
+        // other bound is far away because a loaded machine may stop the thread for a while.
+        assert!(times.iter().all(|t| (5e3..1e6).contains(t)), "{times:?}");
+    }
+
+    #[test]
+    fn a_sink_that_fails_ends_the_campaign() {
+        for jobs in [1, 2] {
+            let mut seen = 0;
+            let outcome = run(&campaign(vec![entry("detour", detour)]), &[None, None], jobs, |_| {
+                seen += 1;
+                if seen == 3 { Err("disk full") } else { Ok(()) }
+            });
+            assert_eq!((outcome, seen), (Err("disk full"), 3));
+        }
+    }
+}

@@ -1,0 +1,297 @@
+//! `runs.db`: the durable record of a campaign, from which everything else can be made again.
+//!
+//! An `SQLite` database in WAL mode, one transaction a run, so an interrupted campaign keeps
+//! every run that ended. Paths and progress curves are JSON text
+//! (`[[x, y], …]` and `[[evaluations, time_us, cost], …]`), readable from any language.
+
+use std::path::{Path, PathBuf};
+
+use env_model::{Point, Scene};
+use rusqlite::{Connection, OpenFlags, OptionalExtension, params};
+
+use crate::campaign::Campaign;
+use crate::error::Error;
+use crate::results::{Manifest, Optimum, PlannerInfo, Progress, Results, RunRecord, RunStatus, SceneResult};
+
+/// The file's name in a campaign's folder.
+pub const FILE: &str = "runs.db";
+/// Version of the tables below.
+const SCHEMA: i64 = 1;
+
+const TABLES: &str = "
+CREATE TABLE campaign (
+    schema INTEGER NOT NULL,
+    name TEXT NOT NULL,
+    seed INTEGER NOT NULL,
+    repeats INTEGER NOT NULL,
+    comparison TEXT NOT NULL,          -- resolved, TOML
+    manifest TEXT NOT NULL             -- JSON; finished = '' while the campaign lasts
+);
+CREATE TABLE planner (
+    position INTEGER PRIMARY KEY,
+    label TEXT NOT NULL UNIQUE,
+    kind TEXT NOT NULL,
+    settings TEXT NOT NULL             -- resolved, TOML
+);
+CREATE TABLE scene (
+    position INTEGER PRIMARY KEY,
+    name TEXT NOT NULL UNIQUE,
+    file TEXT NOT NULL,                -- where the resolved comparison expects it
+    toml TEXT NOT NULL,
+    compile_us REAL NOT NULL,
+    optimum_length REAL,
+    optimum_path TEXT NOT NULL,        -- JSON
+    optimum_reason TEXT
+);
+CREATE TABLE run (
+    scene TEXT NOT NULL,
+    planner TEXT NOT NULL,
+    repeat INTEGER NOT NULL,
+    seed INTEGER NOT NULL,
+    status TEXT NOT NULL,
+    valid INTEGER NOT NULL,
+    length REAL,
+    gap REAL,
+    clearance_min REAL,
+    turning REAL,
+    iterations INTEGER NOT NULL,
+    evaluations INTEGER NOT NULL,
+    collision_checks INTEGER NOT NULL,
+    time_us REAL NOT NULL,
+    cpu_us REAL NOT NULL,
+    error TEXT,
+    path TEXT NOT NULL,                -- JSON
+    progress TEXT NOT NULL,            -- JSON
+    PRIMARY KEY (scene, planner, repeat)
+) WITHOUT ROWID;
+";
+
+/// What a store holds besides the results proper.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stored {
+    /// The results, runs sorted by scene, planner, repeat (names in byte order).
+    pub results: Results,
+    /// The resolved comparison.
+    pub comparison: String,
+    /// Where the resolved comparison expects each scene, in the order of `results.scenes`.
+    pub scene_files: Vec<String>,
+}
+
+/// An open `runs.db`.
+pub struct Store {
+    path: PathBuf,
+    db: Connection,
+}
+
+impl Store {
+    /// Creates `folder/runs.db` for a campaign without runs.
+    pub fn create(folder: &Path, campaign: &Campaign, results: &Results) -> Result<Self, Error> {
+        let path = folder.join(FILE);
+        let fail = |source| Error::Store { path: path.clone(), source };
+        let mut db = Connection::open(&path).map_err(fail)?;
+        db.pragma_update(None, "journal_mode", "WAL").map_err(fail)?;
+        // In WAL mode a crash of the program loses nothing; of the machine, at most the last runs.
+        db.pragma_update(None, "synchronous", "NORMAL").map_err(fail)?;
+        fill(&mut db, campaign, results).map_err(fail)?;
+        Ok(Self { path, db })
+    }
+
+    /// Opens `folder/runs.db` for reading.
+    pub fn open(folder: &Path) -> Result<Self, Error> {
+        let path = folder.join(FILE);
+        let fail = |source| Error::Store { path: path.clone(), source };
+        let foreign = |message: String| Error::Foreign { path: path.clone(), message };
+        if !path.is_file() {
+            return Err(foreign("no such file; expected the folder of a campaign".to_owned()));
+        }
+        let db = Connection::open_with_flags(&path, OpenFlags::SQLITE_OPEN_READ_WRITE).map_err(fail)?;
+        let known = "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name IN ('campaign', 'run')";
+        let tables: i64 = db.query_row(known, [], |row| row.get(0)).map_err(fail)?;
+        if tables != 2 {
+            return Err(foreign("not a database of runs".to_owned()));
+        }
+        let schema: Option<i64> =
+            db.query_row("SELECT schema FROM campaign", [], |row| row.get(0)).optional().map_err(fail)?;
+        match schema {
+            Some(SCHEMA) => Ok(Self { path, db }),
+            Some(other) => Err(foreign(format!("schema version {other}; this program reads version {SCHEMA}"))),
+            None => Err(foreign("a database of runs that was never begun".to_owned())),
+        }
+    }
+
+    fn fail(&self) -> impl Fn(rusqlite::Error) -> Error + '_ {
+        |source| Error::Store { path: self.path.clone(), source }
+    }
+
+    /// Adds a run, in one transaction.
+    pub fn add(&mut self, run: &RunRecord) -> Result<(), Error> {
+        insert(&self.db, run).map_err(self.fail())
+    }
+
+    /// Notes that the campaign has ended.
+    pub fn finish(&mut self, manifest: &Manifest) -> Result<(), Error> {
+        let json = json(manifest);
+        self.db.execute("UPDATE campaign SET manifest = ?1", params![json]).map_err(self.fail())?;
+        Ok(())
+    }
+
+    /// Reads everything back.
+    pub fn read(&self) -> Result<Stored, Error> {
+        let foreign = |message: String| Error::Foreign { path: self.path.clone(), message };
+        let stored = read(&self.db).map_err(self.fail())?;
+        stored.map_err(foreign)
+    }
+}
+
+fn json(value: &impl serde::Serialize) -> String {
+    serde_json::to_string(value).expect("plain data with string keys")
+}
+
+fn points(path: &[Point]) -> String {
+    json(&path.iter().map(|p| [p.x, p.y]).collect::<Vec<_>>())
+}
+
+fn fill(db: &mut Connection, campaign: &Campaign, results: &Results) -> rusqlite::Result<()> {
+    let comparison = &campaign.comparison;
+    let tx = db.transaction()?;
+    tx.execute_batch(TABLES)?;
+    tx.execute(
+        "INSERT INTO campaign VALUES (?1, ?2, ?3, ?4, ?5, ?6)",
+        params![
+            SCHEMA,
+            results.name,
+            results.seed as i64,
+            results.repeats,
+            comparison.to_toml(),
+            json(&results.manifest)
+        ],
+    )?;
+    for (i, planner) in results.planners.iter().enumerate() {
+        tx.execute(
+            "INSERT INTO planner VALUES (?1, ?2, ?3, ?4)",
+            params![i as i64, planner.label, planner.kind, planner.settings],
+        )?;
+    }
+    let files = comparison.scene_files();
+    for (i, ((scene, arena), file)) in results.scenes.iter().zip(&campaign.arenas).zip(files).enumerate() {
+        let Optimum { length, path, reason } = &scene.optimum;
+        tx.execute(
+            "INSERT INTO scene VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)",
+            params![
+                i as i64,
+                scene.scene.name,
+                file,
+                scene.scene.to_toml(),
+                arena.compile_us,
+                length,
+                points(path),
+                reason
+            ],
+        )?;
+    }
+    tx.commit()
+}
+
+fn insert(db: &Connection, run: &RunRecord) -> rusqlite::Result<()> {
+    let progress: Vec<(u64, f64, f64)> = run.progress.iter().map(|p| (p.evaluations, p.time_us, p.cost)).collect();
+    let mut statement = db.prepare_cached(
+        "INSERT INTO run VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17, ?18)",
+    )?;
+    // Outside of `BEGIN` every statement is a transaction of its own.
+    statement.execute(params![
+        run.scene,
+        run.planner,
+        run.repeat,
+        run.seed as i64,
+        run.status.name(),
+        run.valid,
+        run.length,
+        run.gap,
+        run.clearance_min,
+        run.turning,
+        run.iterations as i64,
+        run.evaluations as i64,
+        run.collision_checks as i64,
+        run.time_us,
+        run.cpu_us,
+        run.error,
+        points(&run.path),
+        json(&progress),
+    ])?;
+    Ok(())
+}
+
+/// The outer error is the database's, the inner one says which content makes no sense.
+fn read(db: &Connection) -> rusqlite::Result<Result<Stored, String>> {
+    fn path(json: &str) -> Result<Vec<Point>, String> {
+        let points: Vec<[f64; 2]> = serde_json::from_str(json).map_err(|e| format!("a path: {e}"))?;
+        Ok(points.into_iter().map(Point::from).collect())
+    }
+    fn collect<T>(
+        rows: impl Iterator<Item = rusqlite::Result<Result<T, String>>>,
+    ) -> rusqlite::Result<Result<Vec<T>, String>> {
+        rows.collect::<rusqlite::Result<Vec<_>>>().map(|rows| rows.into_iter().collect())
+    }
+
+    let (name, seed, repeats, comparison, manifest): (String, i64, u32, String, String) =
+        db.query_row("SELECT name, seed, repeats, comparison, manifest FROM campaign", [], |row| {
+            Ok((row.get(0)?, row.get(1)?, row.get(2)?, row.get(3)?, row.get(4)?))
+        })?;
+    let planners = db
+        .prepare("SELECT label, kind, settings FROM planner ORDER BY position")?
+        .query_map([], |row| Ok(PlannerInfo { label: row.get(0)?, kind: row.get(1)?, settings: row.get(2)? }))?
+        .collect::<rusqlite::Result<_>>()?;
+    let mut statement =
+        db.prepare("SELECT file, toml, optimum_length, optimum_path, optimum_reason FROM scene ORDER BY position")?;
+    let scenes = collect(statement.query_map([], |row| {
+        let (file, toml, shortest): (String, String, String) = (row.get(0)?, row.get(1)?, row.get(3)?);
+        let (length, reason) = (row.get(2)?, row.get(4)?);
+        Ok(Scene::from_toml(&file, &toml).map_err(|e| e.to_string()).and_then(|scene| {
+            Ok((file, SceneResult { scene, optimum: Optimum { length, path: path(&shortest)?, reason } }))
+        }))
+    })?)?;
+    let mut statement = db.prepare(
+        "SELECT scene, planner, repeat, seed, status, valid, length, gap, clearance_min, turning, iterations,
+         evaluations, collision_checks, time_us, cpu_us, error, path, progress
+         FROM run ORDER BY scene, planner, repeat",
+    )?;
+    let runs = collect(statement.query_map([], |row| {
+        let (status, points, curve): (String, String, String) = (row.get(4)?, row.get(16)?, row.get(17)?);
+        let count = |i: usize| row.get::<_, i64>(i).map(|n| n as u64);
+        let mut run = RunRecord {
+            scene: row.get(0)?,
+            planner: row.get(1)?,
+            repeat: row.get(2)?,
+            seed: count(3)?,
+            status: RunStatus::Error,
+            valid: row.get(5)?,
+            length: row.get(6)?,
+            gap: row.get(7)?,
+            clearance_min: row.get(8)?,
+            turning: row.get(9)?,
+            iterations: count(10)?,
+            evaluations: count(11)?,
+            collision_checks: count(12)?,
+            time_us: row.get(13)?,
+            cpu_us: row.get(14)?,
+            error: row.get(15)?,
+            path: Vec::new(),
+            progress: Vec::new(),
+        };
+        let mut parse = || {
+            run.status = RunStatus::from_name(&status).ok_or_else(|| format!("no status {status:?}"))?;
+            run.path = path(&points)?;
+            let curve: Vec<(u64, f64, f64)> = serde_json::from_str(&curve).map_err(|e| format!("a curve: {e}"))?;
+            let point = |(evaluations, time_us, cost)| Progress { evaluations, time_us, cost };
+            run.progress = curve.into_iter().map(point).collect();
+            Ok(())
+        };
+        Ok(parse().map(|()| run))
+    })?)?;
+    Ok((|| {
+        let (scene_files, scenes) = scenes?.into_iter().unzip();
+        let manifest = serde_json::from_str(&manifest).map_err(|e| format!("the manifest: {e}"))?;
+        let results = Results { name, seed: seed as u64, repeats, planners, scenes, runs: runs?, manifest };
+        Ok(Stored { results, comparison, scene_files })
+    })())
+}

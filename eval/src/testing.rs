@@ -1,0 +1,106 @@
+//! Fake planners and small campaigns for tests.
+
+use env_model::{Obstacle, Point, Scene};
+use planner_api::{Plan, PlanError, Planner, Problem, Run, Status, View};
+
+use crate::campaign::Campaign;
+use crate::config::{BudgetSpec, Comparison, PlannerEntry};
+
+/// A planner that is a function of problem and seed, and counts its calls since `reset`.
+pub struct Fake {
+    calls: u64,
+    act: fn(&Problem<'_>, u64, &mut Plan) -> Result<Status, PlanError>,
+}
+
+impl Planner for Fake {
+    fn plan_into(&mut self, problem: &Problem<'_>, run: &mut Run<'_>, plan: &mut Plan) -> Result<Status, PlanError> {
+        plan.clear();
+        self.calls += 1;
+        for (evaluations, cost) in [(1, f64::INFINITY), (2, 9.0), (3, 9.0), (4, 8.5)] {
+            run.spent.evaluations = evaluations;
+            run.report("fake", cost, || View::Progress);
+        }
+        run.spent.iterations = self.calls;
+        plan.counters = run.spent;
+        (self.act)(problem, run.seed, plan)
+    }
+
+    fn reset(&mut self) {
+        self.calls = 0;
+    }
+}
+
+/// Works until its budget ends it.
+pub struct Patient;
+
+impl Planner for Patient {
+    fn plan_into(&mut self, _: &Problem<'_>, run: &mut Run<'_>, plan: &mut Plan) -> Result<Status, PlanError> {
+        plan.clear();
+        while run.allows(1) {
+            run.spent.iterations += 1;
+        }
+        Ok(Status::BudgetSpent)
+    }
+}
+
+pub fn entry(label: &str, act: fn(&Problem<'_>, u64, &mut Plan) -> Result<Status, PlanError>) -> PlannerEntry {
+    PlannerEntry {
+        label: label.to_owned(),
+        kind: "fake".to_owned(),
+        settings: toml::Table::from_iter([("gain".to_owned(), 0.5.into())]),
+        budget: BudgetSpec::default(),
+        make: Box::new(move || Box::new(Fake { calls: 0, act })),
+    }
+}
+
+pub fn straight(problem: &Problem<'_>, _: u64, plan: &mut Plan) -> Result<Status, PlanError> {
+    plan.path.extend([problem.start, problem.goal]);
+    Ok(Status::Solved)
+}
+
+/// Over (5, 2 + a number that depends on the seed): free of a disc of radius 1 at (5, 0).
+pub fn detour(problem: &Problem<'_>, seed: u64, plan: &mut Plan) -> Result<Status, PlanError> {
+    let height = 2.0 + (seed % 1000) as f64 / 7000.0;
+    plan.path.extend([problem.start, Point::new(5.0, height), problem.goal]);
+    Ok(Status::BudgetSpent)
+}
+
+pub fn nothing(_: &Problem<'_>, _: u64, _: &mut Plan) -> Result<Status, PlanError> {
+    Ok(Status::NotFound)
+}
+
+pub fn refusal(_: &Problem<'_>, _: u64, _: &mut Plan) -> Result<Status, PlanError> {
+    Err(PlanError::Unsupported("no, \"thanks\"".into()))
+}
+
+pub fn panic_on_odd(problem: &Problem<'_>, seed: u64, plan: &mut Plan) -> Result<Status, PlanError> {
+    assert!(seed.is_multiple_of(2), "seed {seed} is odd");
+    detour(problem, seed, plan)
+}
+
+pub fn not_finite(problem: &Problem<'_>, _: u64, plan: &mut Plan) -> Result<Status, PlanError> {
+    plan.path.extend([problem.start, Point::new(f64::NAN, 1.0), problem.goal]);
+    Ok(Status::Solved)
+}
+
+pub fn short_of_goal(problem: &Problem<'_>, _: u64, plan: &mut Plan) -> Result<Status, PlanError> {
+    plan.path.extend([problem.start, Point::new(5.0, 3.0)]);
+    Ok(Status::Solved)
+}
+
+pub fn scene(name: &str) -> Scene {
+    Scene {
+        name: name.into(),
+        unit: "m".into(),
+        robot_radius: 0.0,
+        start: [0.0, 0.0],
+        goal: [10.0, 0.0],
+        field: None,
+        obstacles: vec![Obstacle::disc(Point::new(5.0, 0.0), 1.0)],
+    }
+}
+
+pub fn campaign(planners: Vec<PlannerEntry>) -> Campaign {
+    let scenes = vec![scene("b-scene"), scene("a-scene")];
+    Campaign::new(Comparison { name: "test".into(), seed: 3, repeats: 5, scenes, planners }).unwrap()
+}

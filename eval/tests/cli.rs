@@ -1,0 +1,262 @@
+//! The command line as its users meet it: exit codes, messages, files.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// A folder of its own for each test, gone afterwards.
+struct Place(PathBuf);
+
+impl Place {
+    fn new(name: &str) -> Self {
+        let folder = std::env::temp_dir().join(format!("touchline-cli-{}-{name}", std::process::id()));
+        let _ = fs::remove_dir_all(&folder);
+        fs::create_dir_all(&folder).unwrap();
+        Self(folder)
+    }
+
+    fn run(&self, args: &[&str]) -> Output {
+        Command::new(env!("CARGO_BIN_EXE_touchline")).args(args).current_dir(&self.0).output().unwrap()
+    }
+
+    fn write(&self, name: &str, text: &str) {
+        fs::write(self.0.join(name), text).unwrap();
+    }
+
+    fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.0.join(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
+    }
+
+    /// Every file below, sorted.
+    fn files(&self) -> Vec<String> {
+        fn walk(folder: &Path, root: &Path, files: &mut Vec<String>) {
+            for entry in fs::read_dir(folder).unwrap() {
+                let path = entry.unwrap().path();
+                files.push(path.strip_prefix(root).unwrap().display().to_string());
+                if path.is_dir() {
+                    walk(&path, root, files);
+                }
+            }
+        }
+        let mut files = Vec::new();
+        walk(&self.0, &self.0, &mut files);
+        files.sort();
+        files
+    }
+
+    fn ok(&self, args: &[&str]) -> String {
+        let output = self.run(args);
+        assert!(output.status.success(), "{args:?}: {}", text(&output.stderr));
+        text(&output.stdout)
+    }
+
+    /// Expects exit code 2, `message` on standard error and no new file.
+    fn refused(&self, args: &[&str], message: &str) {
+        let before = self.files();
+        let output = self.run(args);
+        let error = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{args:?}: {error}");
+        assert!(error.contains(message), "{args:?}:\n{error}\nexpected: {message}");
+        assert_eq!(self.files(), before, "{args:?} wrote something");
+    }
+}
+
+impl Drop for Place {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+const SCENE: &str = "name = \"one\"\nunit = \"cm\"\nstart = [0.0, 0.0]\ngoal = [10.0, 0.0]\n
+[[obstacle]]\ndisc = { centre = [5.0, 0.5], radius = 1.0 }\n";
+const COMPARISON: &str = "name = \"small\"\nrepeats = 3\nscenes = [\"one.toml\"]\n
+[planner.straight-line]\n[planner.pso]\niterations = 20\n[planner.tangent]\n";
+
+fn furnished(name: &str) -> Place {
+    let place = Place::new(name);
+    place.write("one.toml", SCENE);
+    place.write("small.toml", COMPARISON);
+    place
+}
+
+/// `runs.csv` without its time columns.
+fn timeless(csv: &str) -> String {
+    let mut reader = csv::Reader::from_reader(csv.as_bytes());
+    let keep: Vec<bool> = reader.headers().unwrap().iter().map(|h| h != "time_us" && h != "cpu_us").collect();
+    assert_eq!(keep.iter().filter(|k| !**k).count(), 2);
+    let rows = reader.records().map(|row| {
+        let row = row.unwrap();
+        let cells: Vec<&str> = row.iter().zip(&keep).filter(|(_, k)| **k).map(|(c, _)| c).collect();
+        cells.join(",") + "\n"
+    });
+    rows.collect()
+}
+
+#[test]
+fn a_campaign_leaves_everything_and_can_be_made_again() {
+    let place = furnished("campaign");
+    let printed = place.ok(&["run", "small.toml", "--out", "out"]);
+    assert!(printed.contains("small: 3 planners × 1 scene × 3 repeats = 9 runs, seed 1, 1 job"), "{printed}");
+    assert!(printed.contains("straight-line") && printed.contains("0/3") && printed.contains('∞'), "{printed}");
+    for file in ["runs.db", "runs.csv", "summary.csv", "paths.jsonl", "report.html", "comparison.toml", "manifest.json"]
+    {
+        assert!(!fs::read(place.0.join("out").join(file)).unwrap().is_empty(), "{file}");
+    }
+    assert!(!place.files().iter().any(|f| f.ends_with("-wal") || f.ends_with("probe")), "{:?}", place.files());
+    let runs = place.read("out/runs.csv");
+    assert_eq!(runs.lines().count(), 10);
+
+    // The resolved comparison gives the same runs, and so does another number of jobs.
+    place.ok(&["out/comparison.toml", "--out", "again", "--jobs", "2", "--quiet"]);
+    assert_eq!(timeless(&place.read("again/runs.csv")), timeless(&runs));
+    assert_eq!(place.read("again/comparison.toml"), place.read("out/comparison.toml"));
+    assert_eq!(place.read("again/paths.jsonl"), place.read("out/paths.jsonl"));
+
+    // Every export comes from the stored runs alone.
+    let report = place.read("out/report.html");
+    for file in ["runs.csv", "report.html", "paths.jsonl", "summary.csv", "manifest.json", "comparison.toml"] {
+        fs::remove_file(place.0.join("out").join(file)).unwrap();
+    }
+    place.ok(&["report", "out"]);
+    assert_eq!(place.read("out/runs.csv"), runs);
+    assert_eq!(place.read("out/report.html"), report);
+    place.ok(&["report", "out", "--format", "html", "--language", "zh"]);
+    assert_ne!(place.read("out/report.html"), report);
+
+    // A run can be replayed from its seed.
+    let row = runs.lines().find(|l| l.starts_with("one,pso,2,")).unwrap();
+    let cells: Vec<&str> = row.split(',').collect();
+    let json =
+        place.ok(&["plan", "one.toml", "--planner", "pso", "--set", "iterations=20", "--seed", cells[3], "--json"]);
+    let replay: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(replay["length"].to_string(), cells[6]);
+
+    place.refused(&["run", "small.toml", "--out", "out"], "holds a finished campaign, \"small\"");
+    place.refused(&["run", "small.toml", "--out", "."], "holds other files; expected a new or empty folder");
+}
+
+#[test]
+fn default_folders_are_numbered() {
+    let place = furnished("numbered");
+    for _ in 0..2 {
+        place.ok(&["small.toml", "--repeats", "1", "--planner", "tangent", "--quiet"]);
+    }
+    assert!(place.files().contains(&"results/small/runs.csv".into()));
+    assert!(place.files().contains(&"results/small-2/runs.csv".into()));
+    assert_eq!(place.read("results/small/runs.csv").lines().count(), 2, "one planner, one repeat");
+}
+
+#[test]
+fn only_what_is_asked_for_fails() {
+    let place = furnished("fail-on");
+    let code = |args: &[&str]| place.run(args).status.code();
+    assert_eq!(code(&["run", "small.toml", "--out", "a", "--quiet", "--fail-on", "error"]), Some(0));
+    assert_eq!(code(&["run", "small.toml", "--out", "b", "--quiet", "--fail-on", "invalid"]), Some(1));
+    let valid = ["run", "small.toml", "--out", "c", "--quiet", "--fail-on", "invalid", "--planner", "tangent"];
+    assert_eq!(code(&valid), Some(0));
+    assert!(place.run(&["run", "small.toml", "--out", "d", "--quiet"]).stdout.is_empty(), "quiet");
+    let before = place.files();
+    assert!(place.ok(&["run", "small.toml", "--dry-run"]).contains("= 9 runs"));
+    assert_eq!(place.files(), before, "a dry run writes nothing");
+}
+
+#[test]
+fn bad_input_is_refused_and_nothing_written() {
+    let place = furnished("refused");
+    let cases = [
+        ("one.toml", "radius = 1.0", "radius = -1.0", "one.toml:7:40: obstacle 0 radius is -1"),
+        ("one.toml", "radius = 1.0", "radius = nan", "one.toml:7:40: obstacle 0 radius is NaN"),
+        ("one.toml", "[0.0, 0.0]", "[0.0, inf]", "one.toml:3:9: start is inf"),
+        ("one.toml", "[0.0, 0.0]", "[5.0, 0.0]", "one.toml:3:9: start (5.000, 0.000) is 0.5000 inside obstacle 0"),
+        ("one.toml", "[0.0, 0.0]", "[10.0, 0.0]", "one.toml:3:9: start and goal are the same point"),
+        (
+            "one.toml",
+            "disc = { centre = [5.0, 0.5], radius = 1.0 }",
+            "polygon = [[1, 1], [2, 2], [2, 1], [1, 2]]",
+            "sides 0 and 2 (counted from 0) cross or touch",
+        ),
+        ("small.toml", "repeats = 3", "repeats = 0", "small.toml:2:11: repeats = 0"),
+        ("small.toml", "repeats = 3", "repeats = ", "small.toml:2:11: "),
+        ("small.toml", "repeats = 3", "repeat = 3", "small.toml:2:1: unknown field `repeat`"),
+        ("small.toml", "repeats = 3", "repeats = \"3\"", "small.toml:2:11: invalid type: string"),
+        ("small.toml", "\"one.toml\"", "\"two.toml\"", "small.toml:3:11: cannot read two.toml"),
+        ("small.toml", "\"one.toml\"", "\"one.toml\", \"one.toml\"", "small.toml:3:23: a second scene named \"one\""),
+        ("small.toml", "planner.pso", "planner.psso", "small.toml:6:10: unknown planner \"psso\""),
+        ("small.toml", "iterations = 20", "particles = 0", "small.toml:7:13: particles = 0; expected"),
+        ("small.toml", "iterations = 20", "columns = 0", "small.toml:7:11: columns = 0; expected"),
+    ];
+    for (file, from, to, message) in cases {
+        let good = place.read(file);
+        assert!(good.contains(from), "{from}");
+        place.write(file, &good.replacen(from, to, 1));
+        place.refused(&["run", "small.toml", "--out", "out"], message);
+        place.refused(&["check", "small.toml"], message);
+        place.write(file, &good);
+    }
+    place.ok(&["check", "small.toml", "one.toml"]);
+    place.write("empty.toml", "name = \"empty\"\nscenes = [\"one.toml\"]\n");
+    place.refused(&["run", "empty.toml"], "empty.toml:1:1: an empty comparison: no planner");
+    place.refused(&["run", "nowhere.toml"], "cannot read nowhere.toml");
+    place.refused(&["run", "small.toml", "--planner", "pzo"], "--planner pzo: no such label");
+    place.refused(&["run", "small.toml", "--repeats", "0"], "--repeats");
+    place.refused(&["run", "small.toml", "--jobs", "0"], "--jobs");
+    place.refused(&["run", "small.toml", "--out", "one.toml"], "one.toml");
+    place.refused(&["run", "small.toml", "--out", "one.toml/deeper"], "one.toml/deeper");
+    place.refused(&["report", "nowhere"], "no such file; expected the folder of a campaign");
+    place.write("runs.db", "not a database, but long enough to look at, and then some");
+    place.refused(&["report", "."], "runs.db");
+    place.refused(&["plan", "one.toml", "--planner", "psso"], "unknown planner \"psso\"");
+    place.refused(&["plan", "one.toml", "--planner", "pso", "--set", "particles=0"], "particles = 0; expected");
+    place.refused(&["plan", "one.toml", "--planner", "pso", "--set", "particles"], "expected KEY=VALUE");
+}
+
+#[test]
+fn what_is_to_come_says_so() {
+    let place = furnished("not-yet");
+    for args in [
+        &["run", "small.toml", "--resume"][..],
+        &["small.toml", "--shard", "1/2"],
+        &["run", "--isolate"],
+        &["status", "out"],
+        &["merge", "a", "b", "--out", "c"],
+        &["compare", "a", "b"],
+        &["worker"],
+        &["report", "out", "--format", "ompl"],
+        &["report", "out", "--format", "csv,ioh"],
+    ] {
+        place.refused(args, "error: not yet: ");
+    }
+    place.write(
+        "external.toml",
+        "name = \"e\"\nscenes = [\"one.toml\"]\n[planner.mine]\nkind = \"external\"\ncommand = [\"x\"]",
+    );
+    place.refused(&["run", "external.toml"], "external.toml:4:8: not yet: planners of kind \"external\"");
+}
+
+#[test]
+fn one_plan_is_printed_drawn_and_traced() {
+    let place = furnished("plan");
+    let args = ["plan", "one.toml", "--planner", "pso", "--set", "particles=5", "--set", "budget.iterations=3"];
+    let printed = place.ok(&[&args[..], &["--svg", "path.svg", "--trace", "trace.jsonl"]].concat());
+    assert!(printed.contains("status     budget_spent") && printed.contains("3 iterations"), "{printed}");
+    assert!(place.read("path.svg").starts_with("<svg") || place.read("path.svg").starts_with("<?xml"));
+    let trace: Vec<serde_json::Value> =
+        place.read("trace.jsonl").lines().map(|l| serde_json::from_str(l).unwrap()).collect();
+    assert_eq!(trace.len(), 4, "after initialisation and each iteration");
+    for (i, frame) in trace.iter().enumerate() {
+        assert_eq!(frame["iteration"], i);
+        assert_eq!(frame["positions"].as_array().unwrap().len(), 5);
+        assert_eq!(frame["positions"][4].as_array().unwrap().len(), 20);
+        assert_eq!(frame["velocities"][4].as_array().unwrap().len(), 20);
+        assert_eq!(frame["x"].as_array().unwrap().len(), 20);
+        assert_eq!(frame["frame"], serde_json::json!({ "origin": [0.0, 0.0], "axis": [1.0, 0.0] }));
+    }
+    for what in ["planners", "generators", "metrics"] {
+        let rows: Vec<serde_json::Value> = serde_json::from_str(&place.ok(&["list", what, "--json"])).unwrap();
+        assert_eq!(place.ok(&["list", what]).lines().count(), rows.len());
+    }
+}

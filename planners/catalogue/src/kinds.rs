@@ -1,0 +1,108 @@
+//! The list of planners.
+
+use planner_api::Planner;
+use planner_baseline::{RandomSearch, RandomSearchSettings, StraightLine, StraightLineSettings};
+use planner_pso::Pso;
+use planner_qp::{Classes, Qp};
+use planner_tangent::Tangent;
+use serde::Serialize;
+use toml::Table;
+
+use crate::Refined;
+use crate::build::{BuildError, Settings};
+
+/// One kind of planner.
+#[derive(Debug, Clone, Copy)]
+pub struct Kind {
+    /// Its name in comparisons.
+    pub name: &'static str,
+    /// What it does, in a sentence.
+    pub summary: &'static str,
+    /// Where it comes from.
+    pub source: &'static str,
+    pub(crate) make: Make,
+}
+
+/// Builds a planner from its settings; returns every setting in force as well.
+type Make = fn(Settings<'_>) -> Result<(Box<dyn Planner>, Table), BuildError>;
+
+/// All kinds, in the order of the documentation.
+pub fn kinds() -> &'static [Kind] {
+    const KINDS: &[Kind] = &[
+        Kind {
+            name: "straight-line",
+            summary: "The straight segment from start to goal, whatever stands between",
+            source: "baseline",
+            make: |settings| {
+                let settings: StraightLineSettings = settings.parse()?;
+                Ok((Box::new(StraightLine), table(&settings)))
+            },
+        },
+        Kind {
+            name: "random-search",
+            summary: "The best of uniform random polylines on the columns of the 2012 paper",
+            source: "baseline",
+            make: |settings| {
+                let settings: RandomSearchSettings = settings.parse()?;
+                let resolved = table(&settings);
+                Ok((Box::new(RandomSearch::new(settings)?), resolved))
+            },
+        },
+        Kind {
+            name: "pso",
+            summary: "Particle swarm on perpendicular columns with a collision penalty",
+            source: "Lu & Sun 2012, Computer Technology and Development 22(7), 124-127",
+            make: |settings| {
+                let settings = settings.parse::<planner_pso::Settings>()?.filled();
+                let resolved = table(&settings);
+                Ok((Box::new(Pso::new(settings)?), resolved))
+            },
+        },
+        Kind {
+            name: "pso-qp",
+            summary: "The swarm, then convex refinement of the side classes it has visited (all keys of pso; \
+                      classes = \"swarm\" or \"final\"; qp = { other keys of the refinement })",
+            source: "Lu & Sun 2012; refinement: Touchline, solved by clarabel",
+            make: pso_qp,
+        },
+        Kind {
+            name: "tangent",
+            summary: "The exact shortest path among discs",
+            source: "tangent visibility graph, after arXiv:1103.3911",
+            make: |settings| {
+                let settings: planner_tangent::Settings = settings.parse()?;
+                let resolved = table(&settings);
+                Ok((Box::new(Tangent::new(settings)?), resolved))
+            },
+        },
+    ];
+    KINDS
+}
+
+/// Classes that a swarm hands to the refinement: more than 20 particles visit
+/// in the scenes of the papers, and bounded in a crowd.
+const SIDE_CLASSES: usize = 256;
+
+fn pso_qp(mut settings: Settings<'_>) -> Result<(Box<dyn Planner>, Table), BuildError> {
+    let classes = settings.take_parsed("classes")?.unwrap_or(Classes::Swarm);
+    let mut qp: planner_qp::Settings = settings.take_parsed("qp")?.unwrap_or_default();
+    qp.classes = classes;
+    let remembers = settings.has("side_classes");
+    let mut pso = settings.parse::<planner_pso::Settings>()?.filled();
+    if !remembers && classes == Classes::Swarm {
+        pso.side_classes = SIDE_CLASSES;
+    }
+    let mut resolved = table(&pso);
+    let mut qp_resolved = table(&qp);
+    if let Some(classes) = qp_resolved.remove("classes") {
+        resolved.insert("classes".into(), classes);
+    }
+    resolved.insert("qp".into(), qp_resolved.into());
+    let qp = Qp::new(qp).map_err(|error| BuildError::from(error).within("qp"))?;
+    Ok((Box::new(Refined::new(Box::new(Pso::new(pso)?), vec![Box::new(qp)])), resolved))
+}
+
+/// Settings as TOML.
+pub(crate) fn table<T: Serialize>(settings: &T) -> Table {
+    Table::try_from(settings).expect("settings are plain data")
+}

@@ -1,0 +1,7 @@
+//! Tests that cross crates: every planner of the catalogue against the contract, and golden experiments.
+
+mod allocation;
+mod contract;
+mod deadline;
+mod golden;
+mod scenes;
