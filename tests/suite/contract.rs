@@ -5,29 +5,10 @@ use std::time::Instant;
 
 use env_model::{Point, Scene, World, path_length};
 use planner_api::{Budget, Detail, Frame, Observer, Plan, PlanError, Planner, Problem, Run, Status, View};
-use planner_catalogue::{build_str, kinds};
+use planner_catalogue::build_str;
 
+use crate::planners::planners;
 use crate::scenes;
-
-/// Every kind with default settings, and compositions.
-pub fn planners() -> Vec<(String, Box<dyn Planner>)> {
-    let mut planners: Vec<_> = kinds()
-        .iter()
-        .map(|kind| (kind.name.to_owned(), build_str(kind.name, "").unwrap_or_else(|e| panic!("{e}")).planner))
-        .collect();
-    for (name, kind, settings) in [
-        ("pso + qp", "pso", "refine = [\"qp\"]"),
-        ("pso + free smooth qp", "pso", "refine = [{ kind = \"qp\", model = \"free\", objective = \"smooth\" }]"),
-        ("straight-line + qp", "straight-line", "refine = [\"qp\"]"),
-        ("tangent + smooth qp", "tangent", "refine = [{ kind = \"qp\", objective = \"smooth\" }]"),
-        ("pso-qp, final class", "pso-qp", "classes = \"final\""),
-        ("pso, ring", "pso", "topology = \"ring\"\nbounds = \"reflect\""),
-    ] {
-        let planner = build_str(kind, settings).unwrap_or_else(|e| panic!("{name}: {e}")).planner;
-        planners.push((name.to_owned(), planner));
-    }
-    planners
-}
 
 /// Calls `check` with every planner in every scene.
 fn everywhere(mut check: impl FnMut(&str, &mut dyn Planner, &Scene, &World)) {

@@ -2,6 +2,6 @@
 
 mod allocation;
 mod contract;
-mod deadline;
 mod golden;
+mod planners;
 mod scenes;

@@ -85,6 +85,8 @@ pub struct Solver {
     route: Route,
     /// Arrivals expanded in all rounds.
     expanded: usize,
+    /// When to ask whether start and goal are separated.
+    ask_at: usize,
     /// The last arrival of the round's path.
     last: usize,
     found: bool,
@@ -168,6 +170,7 @@ impl Solver {
         }
         self.limit = goal.coords.norm() * (1.0 + HEADROOM);
         self.expanded = 0;
+        self.ask_at = ASK_SEPARATION;
         loop {
             match self.round(discs, watch) {
                 Round::Path(cost) if self.is_free(discs, watch) => {
@@ -238,7 +241,8 @@ impl Solver {
                 self.last = from;
                 return Round::Path(cost);
             }
-            if self.expanded == ASK_SEPARATION {
+            if self.expanded >= self.ask_at {
+                self.ask_at = usize::MAX;
                 // Overlaps below twice the tolerance are passable for the search.
                 let margin = 4.0 * self.tolerance;
                 match self.separation.separated(discs, Point::origin(), goal, margin, || watch.allows()) {

@@ -1,0 +1,41 @@
+//! Deadlines are overshot by one inner step at most.
+
+use std::time::{Duration, Instant};
+
+use planner_api::{Budget, Plan, Planner, Problem, Run};
+
+#[path = "../suite/planners.rs"]
+mod planners;
+#[path = "../suite/scenes.rs"]
+mod scenes;
+
+const MILLISECOND: Duration = Duration::from_millis(1);
+
+/// Median overshoot of a deadline of 1 ms over 15 seeds.
+fn median_overshoot(planner: &mut dyn Planner, problem: &Problem<'_>) -> Duration {
+    let mut plan = Plan::new();
+    let mut overshoots: Vec<Duration> = (0..15)
+        .map(|seed| {
+            let deadline = Instant::now() + MILLISECOND;
+            let budget = Budget { deadline: Some(deadline), ..Budget::default() };
+            planner.plan_into(problem, &mut Run::new(seed).with_budget(budget), &mut plan).unwrap();
+            Instant::now().saturating_duration_since(deadline)
+        })
+        .collect();
+    overshoots.sort();
+    overshoots[7]
+}
+
+/// Another process may take the processor, for a whole series even; a planner
+/// that overshoots by itself does so in every series.
+#[test]
+fn a_deadline_of_a_millisecond_is_overshot_by_less_than_one_at_the_median() {
+    for scene in scenes::all() {
+        let world = scenes::world(&scene);
+        let problem = Problem::new(&world, scene.start(), scene.goal()).unwrap();
+        for (name, mut planner) in planners::planners() {
+            let least = (0..3).map(|_| median_overshoot(planner.as_mut(), &problem)).find(|o| *o < MILLISECOND);
+            assert!(least.is_some(), "{name} in {}: {:?}", scene.name, median_overshoot(planner.as_mut(), &problem));
+        }
+    }
+}
