@@ -5,6 +5,7 @@ pub mod cli;
 pub mod config;
 pub mod error;
 pub mod export;
+mod format;
 pub mod machine;
 pub mod metrics;
 pub mod optimum;

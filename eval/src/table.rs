@@ -2,6 +2,7 @@
 
 use comfy_table::{Cell, CellAlignment, LineStyle, Table, TableStyle};
 
+use crate::format;
 use crate::results::Results;
 use crate::stats::{Summary, summarise};
 
@@ -19,7 +20,7 @@ pub fn render(results: &Results) -> String {
         for scene in &results.scenes {
             let name = &scene.scene.name;
             let optimum = match &scene.optimum.length {
-                Some(length) => format!("optimum {}", length_text(*length)),
+                Some(length) => format!("optimum {}", format::length(*length)),
                 None => format!("optimum unknown: {}", scene.optimum.reason.as_deref().unwrap_or("not computed")),
             };
             out.push_str(&format!("{name} ({}; {optimum})\n{}\n", scene.scene.unit, one(results, Some(name))));
@@ -49,46 +50,17 @@ fn one(results: &Results, scene: Option<&str>) -> String {
 }
 
 fn row(s: &Summary) -> Vec<Cell> {
-    let [q1, q3] = s.length_quartiles.map(length_text);
+    let [q1, q3] = s.length_quartiles.map(format::length);
     let cells = [
         s.planner.clone(),
         format!("{}/{}", s.valid, s.runs),
-        length_text(s.length_median),
-        s.gap_median.map_or_else(|| "–".to_owned(), percent_text),
+        format::length(s.length_median),
+        s.gap_median.map_or_else(|| "–".to_owned(), format::percent),
         format!("{q1} … {q3}"),
-        time_text(s.time_us_median),
-        format!("{:.0}", s.evaluations_median),
+        format::time(s.time_us_median),
+        format::count(s.evaluations_median),
     ];
     cells.into_iter().map(Cell::new).collect()
-}
-
-/// A length with six significant digits.
-pub fn length_text(length: f64) -> String {
-    if !length.is_finite() {
-        return "∞".to_owned();
-    }
-    let whole = (length.abs().max(1e-9).log10().floor() as i32).clamp(-9, 5);
-    format!("{length:.*}", (5 - whole) as usize)
-}
-
-/// A share in percent, two digits and enough of them to show small gaps.
-pub fn percent_text(share: f64) -> String {
-    let percent = 100.0 * share;
-    match percent.abs() {
-        p if !p.is_finite() => "∞".to_owned(),
-        p if p >= 0.01 || p == 0.0 => format!("{percent:.2} %"),
-        _ => format!("{percent:.1e} %"),
-    }
-}
-
-/// A time in its natural unit.
-pub fn time_text(us: f64) -> String {
-    match us {
-        t if t < 10.0 => format!("{t:.2} µs"),
-        t if t < 1e3 => format!("{t:.0} µs"),
-        t if t < 1e6 => format!("{:.2} ms", t / 1e3),
-        t => format!("{:.2} s", t / 1e6),
-    }
 }
 
 #[cfg(test)]
@@ -97,20 +69,6 @@ mod tests {
     use crate::results::Optimum;
     use crate::runner;
     use crate::testing::{campaign, detour, entry, straight};
-
-    #[test]
-    fn numbers_are_short_and_failures_infinite() {
-        assert_eq!(length_text(231.588_978_257), "231.589");
-        assert_eq!(length_text(0.012_345_678), "0.0123457");
-        assert_eq!(length_text(1_234_567.8), "1234568");
-        assert_eq!(length_text(f64::INFINITY), "∞");
-        assert_eq!(percent_text(0.0444), "4.44 %");
-        assert_eq!(percent_text(2.3e-9), "2.3e-7 %");
-        assert_eq!(percent_text(f64::INFINITY), "∞");
-        assert_eq!(time_text(0.612), "0.61 µs");
-        assert_eq!(time_text(950.4), "950 µs");
-        assert_eq!(time_text(1950.0), "1.95 ms");
-    }
 
     #[test]
     fn the_table_as_printed() {
@@ -128,11 +86,11 @@ mod tests {
         })
         .unwrap();
         let expected = "\
-b-scene (m; optimum 10.2500)
+b-scene (m; optimum 10.25)
  planner    valid   median length      gap                 IQR   median time   evaluations
 ───────────────────────────────────────────────────────────────────────────────────────────
- straight     0/5               ∞        ∞               ∞ … ∞       1.25 ms             4
- detour       5/5         10.8906   6.25 %   10.8906 … 10.8906       1.25 ms             4
+ straight     0/5               ∞        ∞               ∞ … ∞       1.25\u{a0}ms             4
+ detour       5/5         10.8906   6.25\u{a0}%   10.8906 … 10.8906       1.25\u{a0}ms             4
 ───────────────────────────────────────────────────────────────────────────────────────────
 Runs without a valid path count as ∞. IQR: quartiles of the length. Median time of all runs.
 ";

@@ -13,11 +13,11 @@ use super::{PlanArgs, say};
 use crate::campaign::Arena;
 use crate::config::{self, PlannerEntry};
 use crate::error::Error;
+use crate::format;
 use crate::recorder::Recorder;
 use crate::report::svg::{PathLayer, scene_svg};
 use crate::results::{RunRecord, SceneResult};
 use crate::runner;
-use crate::table::{length_text, percent_text, time_text};
 use crate::trace::Tracer;
 use crate::verdict::Judge;
 
@@ -127,14 +127,14 @@ fn summary(entry: &PlannerEntry, scene: &SceneResult, r: &RunRecord, judge: &Jud
     line("status", r.status.name().to_owned());
     line("valid", judge.verdict(&r.path).map_or_else(|fault| format!("no: {fault}"), |()| "yes".to_owned()));
     if let Some(length) = r.length {
-        line("length", format!("{} {unit} in {} segments", length_text(length), r.path.len() - 1));
+        line("length", format!("{} {unit} in {} segments", format::length(length), r.path.len() - 1));
     }
     match (&scene.optimum.length, &scene.optimum.reason) {
-        (Some(optimum), _) => line("optimum", format!("{} {unit}", length_text(*optimum))),
+        (Some(optimum), _) => line("optimum", format!("{} {unit}", format::length(*optimum))),
         (None, reason) => line("optimum", format!("unknown: {}", reason.as_deref().unwrap_or("not computed"))),
     }
     if let Some(gap) = r.gap {
-        line("gap", percent_text(gap));
+        line("gap", format::percent(gap));
     }
     if let Some(clearance) = r.clearance_min {
         line("clearance", format!("{clearance:.6} {unit}"));
@@ -143,7 +143,7 @@ fn summary(entry: &PlannerEntry, scene: &SceneResult, r: &RunRecord, judge: &Jud
         "work",
         format!("{} iterations, {} evaluations, {} collision checks", r.iterations, r.evaluations, r.collision_checks),
     );
-    line("time", time_text(r.time_us));
+    line("time", format::time(r.time_us));
     if let Some(error) = &r.error {
         line("error", error.clone());
     }

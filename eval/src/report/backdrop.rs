@@ -4,10 +4,11 @@ use std::fmt::Write as _;
 
 use env_model::{Obstacle, Point, Scene, Shape};
 
+use super::axis::Axis;
 use super::camera::{Camera, LEFT, TOP, WIDTH};
 use super::language::Strings;
 use super::svg::{clipped, escape};
-use super::{axis::Axis, format};
+use crate::format;
 
 /// Ground, border, obstacles and, if wanted, numbers along the border. `id` is unique in the page.
 pub fn backdrop(scene: &Scene, camera: &Camera, t: &Strings, id: &str, words: bool) -> String {

@@ -13,7 +13,8 @@ use minijinja::{Value, context};
 
 use super::language::Strings;
 use super::svg::escape;
-use super::{axis::Axis, chart, format, palette};
+use super::{axis::Axis, chart, palette};
+use crate::format;
 use crate::results::RunRecord;
 use crate::stats::quantile;
 

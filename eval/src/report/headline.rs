@@ -1,7 +1,7 @@
 //! The answer in one paragraph, computed from the runs.
 
-use super::format;
 use super::language::Strings;
+use crate::format;
 use crate::results::Results;
 use crate::stats::{Summary, summarise};
 

@@ -72,7 +72,7 @@ impl Strings {
 
     /// `one` for a count of 1, else `many`, both with `{n}`.
     pub fn plural(&self, n: usize, one: &str, many: &str) -> String {
-        self.fill(if n == 1 { one } else { many }, &[("n", &super::format::count(n as f64))])
+        self.fill(if n == 1 { one } else { many }, &[("n", &crate::format::count(n as f64))])
     }
 
     /// "a, b and c" for a list of words.

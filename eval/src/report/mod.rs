@@ -10,7 +10,6 @@ mod backdrop;
 mod camera;
 mod chart;
 mod convergence;
-mod format;
 mod headline;
 mod language;
 mod palette;

@@ -8,7 +8,8 @@ use minijinja::{Value, context};
 use super::camera::{Camera, polyline};
 use super::language::Strings;
 use super::svg::{Picture, cross_mark, escape, optimum_line, picture};
-use super::{format, palette, tables};
+use super::{palette, tables};
+use crate::format;
 use crate::results::{RunRecord, RunStatus, SceneResult};
 use crate::stats::{counted_length, median};
 

@@ -9,7 +9,8 @@ use super::convergence::{self, Series};
 use super::language::Strings;
 use super::planner_card::{Stage, card, miniature, reference};
 use super::strip::{self, Row};
-use super::{format, tables};
+use super::tables;
+use crate::format;
 use crate::results::{Results, RunRecord, SceneResult};
 use crate::stats::counted_length;
 

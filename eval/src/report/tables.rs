@@ -3,7 +3,8 @@
 use minijinja::{Value, context};
 
 use super::language::Strings;
-use super::{format, palette};
+use super::palette;
+use crate::format;
 use crate::results::{Results, RunRecord};
 use crate::stats::{Summary, summarise};
 

@@ -1,20 +1,13 @@
 //! Median time of a run of the paper's swarm on its scene.
 use std::time::Instant;
 
-use env_model::{Obstacle, Scene, World};
+use env_model::{Scene, World};
 use planner_api::{Plan, Planner, Problem, Run};
 use planner_pso::{Pso, Settings};
 
 fn main() {
-    let scene = Scene {
-        name: "lu-sun-2012".into(),
-        unit: "cm".into(),
-        robot_radius: 0.0,
-        start: [200.0, 150.0],
-        goal: [400.0, 260.0],
-        field: None,
-        obstacles: [[240.0, 160.0], [280.0, 200.0], [320.0, 230.0]].map(|c| Obstacle::disc(c.into(), 16.0)).to_vec(),
-    };
+    let file = include_str!("../../../configs/scenes/lu-sun-2012.toml");
+    let scene = Scene::from_toml("lu-sun-2012.toml", file).expect("a good scene");
     let world = World::new(&scene).expect("a good scene");
     let problem = Problem::new(&world, scene.start(), scene.goal()).expect("free ends");
     let mut pso = Pso::new(Settings::default()).expect("defaults");

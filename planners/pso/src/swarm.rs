@@ -159,7 +159,7 @@ impl Swarm {
 #[cfg(test)]
 mod tests {
     use env_model::geometry::point_segment_distance;
-    use env_model::{Obstacle, Point, Scene};
+    use env_model::{Point, Scene};
 
     use super::*;
     use crate::settings::{Bounds, VelocityLimit};
@@ -241,17 +241,7 @@ mod tests {
     }
 
     fn scene() -> Scene {
-        Scene {
-            name: "paper".into(),
-            unit: "cm".into(),
-            robot_radius: 0.0,
-            start: [200.0, 150.0],
-            goal: [400.0, 260.0],
-            field: None,
-            obstacles: [[240.0, 160.0], [280.0, 200.0], [320.0, 230.0]]
-                .map(|c| Obstacle::disc(c.into(), 16.0))
-                .to_vec(),
-        }
+        Scene::from_toml("lu-sun-2012.toml", include_str!("../../../configs/scenes/lu-sun-2012.toml")).unwrap()
     }
 
     fn run(arch: Arch, settings: &Settings, world: &World, columns: &Columns, seed: u64) -> Swarm {

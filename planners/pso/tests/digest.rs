@@ -1,19 +1,11 @@
 //! Rows of the published table of readings, and invariants of the swarm.
 
-use env_model::{Obstacle, Scene, World, path_length};
+use env_model::{Scene, World, path_length};
 use planner_api::{Plan, Planner, Problem, Run};
 use planner_pso::{Bounds, NoLimit, Pso, RandomNumbers, Settings, Topology, VelocityLimit};
 
 fn paper() -> Scene {
-    Scene {
-        name: "lu-sun-2012".into(),
-        unit: "cm".into(),
-        robot_radius: 0.0,
-        start: [200.0, 150.0],
-        goal: [400.0, 260.0],
-        field: None,
-        obstacles: [[240.0, 160.0], [280.0, 200.0], [320.0, 230.0]].map(|c| Obstacle::disc(c.into(), 16.0)).to_vec(),
-    }
+    Scene::from_toml("lu-sun-2012.toml", include_str!("../../../configs/scenes/lu-sun-2012.toml")).unwrap()
 }
 
 /// Share of valid runs (%) and median length of the valid ones over `seeds` seeds.
