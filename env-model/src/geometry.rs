@@ -76,6 +76,14 @@ pub fn segment_segment_distance(a: Point, b: Point, c: Point, d: Point) -> f64 {
         .sqrt()
 }
 
+/// Whether the segments `a b` and `c d` come nearer to each other than `reach`.
+///
+/// Most pairs are far apart, which their coordinates alone tell.
+pub fn segments_nearer_than(reach: f64, a: Point, b: Point, c: Point, d: Point) -> bool {
+    let apart = |a: f64, b: f64, c: f64, d: f64| c.min(d) - a.max(b) >= reach || a.min(b) - c.max(d) >= reach;
+    !(apart(a.x, b.x, c.x, d.x) || apart(a.y, b.y, c.y, d.y)) && segment_segment_distance(a, b, c, d) < reach
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

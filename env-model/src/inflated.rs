@@ -1,7 +1,9 @@
 //! Obstacles inflated by the robot's radius: every shape is a core (point,
 //! segment, polygon) and a distance that must be kept from it.
 
-use crate::geometry::{point_segment_distance, point_segment_distance_squared, segment_segment_distance};
+use crate::geometry::{
+    point_segment_distance, point_segment_distance_squared, segment_segment_distance, segments_nearer_than,
+};
 use crate::{Aabb, Point, Polygon};
 
 /// What remains of a shape when its rounding radius is taken off.
@@ -87,9 +89,9 @@ impl Inflated {
         let reach = self.radius - slack;
         match &self.core {
             Core::Point(c) => reach <= 0.0 || point_segment_distance_squared(*c, a, b) >= reach * reach,
-            Core::Segment(c, e) => reach <= 0.0 || segment_segment_distance(a, b, *c, *e) >= reach,
+            Core::Segment(c, e) => reach <= 0.0 || !segments_nearer_than(reach, a, b, *c, *e),
             Core::Polygon(polygon) if reach > 0.0 => {
-                !polygon.contains(a) && polygon.sides().all(|(c, e)| segment_segment_distance(a, b, c, e) >= reach)
+                polygon.sides().all(|(c, e)| !segments_nearer_than(reach, a, b, c, e)) && !polygon.contains(a)
             }
             Core::Polygon(polygon) => !polygon.enters_deeper_than(a, b, -reach),
         }
