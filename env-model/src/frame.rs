@@ -89,6 +89,24 @@ impl Columns {
         i as f64 * self.spacing()
     }
 
+    /// The heights (lowest, highest) at which column `i` is inside `region`; empty when it passes by.
+    pub fn inside(&self, i: usize, region: &Aabb) -> (f64, f64) {
+        let foot = self.frame.to_world(Point::new(self.x(i), 0.0));
+        let up = Vector::new(-self.frame.axis.y, self.frame.axis.x);
+        let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+        for k in 0..2 {
+            let (to_min, to_max) = (region.min[k] - foot[k], region.max[k] - foot[k]);
+            if up[k] == 0.0 && (to_min > 0.0 || to_max < 0.0) {
+                return (f64::INFINITY, f64::NEG_INFINITY);
+            }
+            if up[k] != 0.0 {
+                let (u, v) = (to_min / up[k], to_max / up[k]);
+                (low, high) = (low.max(u.min(v)), high.min(u.max(v)));
+            }
+        }
+        (low, high)
+    }
+
     /// Writes start, the m points at `heights`, goal into `path`: m + 2 points, the ends exact.
     pub fn write_path(&self, heights: &[f64], path: &mut Vec<Point>) {
         path.clear();
@@ -107,6 +125,18 @@ impl Columns {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn columns_cross_a_box_between_its_sides() {
+        let region = Aabb { min: Point::new(0.0, -1.0), max: Point::new(10.0, 3.0) };
+        let level = Columns::new(Point::new(1.0, 0.0), Point::new(9.0, 0.0), 3);
+        assert_eq!(level.inside(2, &region), (-1.0, 3.0));
+        let upright = Columns::new(Point::new(4.0, -0.5), Point::new(4.0, 2.5), 2);
+        assert_eq!(upright.inside(1, &region), (-6.0, 4.0), "y' points to the left of the way");
+        let above = Columns::new(Point::new(1.0, 5.0), Point::new(1.0, 9.0), 1);
+        let (low, high) = above.inside(1, &region);
+        assert!(low > high, "the column passes by");
+    }
 
     #[test]
     fn the_frame_is_a_rigid_motion_and_back() {

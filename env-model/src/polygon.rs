@@ -53,7 +53,9 @@ impl Polygon {
                 }
             }
         }
-        let doubled_area: f64 = (0..n).map(|i| cross(corners[i].coords, corners[(i + 1) % n].coords)).sum();
+        // Seen from a corner: far from the origin absolute coordinates lose the sign.
+        let seen = |i: usize| corners[i % n] - corners[0];
+        let doubled_area: f64 = (0..n).map(|i| cross(seen(i), seen(i + 1))).sum();
         if doubled_area < 0.0 {
             corners.reverse();
         }

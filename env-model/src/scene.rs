@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::scene_file::ObstacleFields;
+use crate::scene_file::{ObstacleFields, pair};
 use crate::{Aabb, Core, FileError, Inflated, Point, Polygon, PolygonError, World};
 
 /// The shape of an obstacle, before inflation.
@@ -58,8 +58,10 @@ impl From<Shape> for Obstacle {
 #[serde(deny_unknown_fields)]
 pub struct Field {
     /// Lower left corner.
+    #[serde(deserialize_with = "pair")]
     pub min: [f64; 2],
     /// Upper right corner.
+    #[serde(deserialize_with = "pair")]
     pub max: [f64; 2],
 }
 
@@ -85,8 +87,10 @@ pub struct Scene {
     #[serde(default)]
     pub robot_radius: f64,
     /// Where the path begins.
+    #[serde(deserialize_with = "pair")]
     pub start: [f64; 2],
     /// Where it ends.
+    #[serde(deserialize_with = "pair")]
     pub goal: [f64; 2],
     /// Limits of the field, if it has any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -113,6 +117,9 @@ pub struct Place {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[allow(missing_docs, reason = "the fields are what the messages print")]
 pub enum SceneError {
+    /// A name that tables and file names cannot carry.
+    #[error("name {name:?}; expected 1 to 100 printable characters")]
+    Name { name: String },
     /// A coordinate or radius is NaN or infinite.
     #[error("{what} is {value}; expected a finite number")]
     NotFinite { place: Place, what: String, value: f64 },
@@ -129,9 +136,18 @@ pub enum SceneError {
     #[error("field min ({}, {}) must lie below and left of max ({}, {}) by more than the robot's diameter {diameter}",
         min[0], min[1], max[0], max[1])]
     EmptyField { min: [f64; 2], max: [f64; 2], diameter: f64 },
-    /// Start and goal coincide.
+    /// Start and goal coincide, up to the scene's ε.
     #[error("start and goal are the same point ({x}, {y}); expected two different points")]
     StartIsGoal { x: f64, y: f64 },
+    /// Sizes whose squares f64 cannot hold.
+    #[error("the scene measures {diagonal:e} across; expected between 1e-100 and 1e100 units")]
+    Size { diagonal: f64 },
+    /// Coordinates so large that f64 cannot resolve the scene's tolerance.
+    #[error(
+        "a scene {diagonal:e} across with coordinates up to {largest:e} cannot be resolved to its tolerance \
+        {epsilon:e}; expected an origin nearer to the scene"
+    )]
+    FarAway { diagonal: f64, largest: f64, epsilon: f64 },
     /// Start or goal in an obstacle.
     #[error("{end} ({x:.3}, {y:.3}) is {depth:.4} inside {obstacle} (robot radius included); expected a free point")]
     InsideObstacle { end: &'static str, x: f64, y: f64, depth: f64, obstacle: String },
@@ -148,8 +164,11 @@ impl SceneError {
             | Self::NegativeRadius { place, .. }
             | Self::NoInterior { place, .. }
             | Self::Polygon { place, .. } => *place,
+            Self::Name { .. } => Place { obstacle: None, key: "name" },
             Self::EmptyField { .. } => Place { obstacle: None, key: "field" },
-            Self::StartIsGoal { .. } => Place { obstacle: None, key: "start" },
+            Self::StartIsGoal { .. } | Self::Size { .. } | Self::FarAway { .. } => {
+                Place { obstacle: None, key: "start" }
+            }
             Self::InsideObstacle { end, .. } | Self::OutsideField { end, .. } => Place { obstacle: None, key: end },
         }
     }
@@ -274,6 +293,10 @@ impl Scene {
 
     /// Checks every number and shape; says nothing about start and goal being free.
     pub fn validate(&self) -> Result<(), SceneError> {
+        let printable = !self.name.trim().is_empty() && !self.name.chars().any(char::is_control);
+        if !printable || self.name.chars().count() > 100 {
+            return Err(SceneError::Name { name: self.name.clone() });
+        }
         self.radius(None, "robot_radius", self.robot_radius)?;
         self.finite(None, "start", &self.start)?;
         self.finite(None, "goal", &self.goal)?;
@@ -292,6 +315,19 @@ impl Scene {
         }
         if self.start == self.goal {
             return Err(SceneError::StartIsGoal { x: self.start[0], y: self.start[1] });
+        }
+        let aabb = self.aabb();
+        let (diagonal, epsilon) = (aabb.diagonal(), self.epsilon());
+        if !(1e-100..=1e100).contains(&diagonal) {
+            return Err(SceneError::Size { diagonal });
+        }
+        if (self.goal() - self.start()).norm() <= epsilon {
+            return Err(SceneError::StartIsGoal { x: self.start[0], y: self.start[1] });
+        }
+        let largest = aabb.min.coords.amax().max(aabb.max.coords.amax());
+        // Distances are good to about two units in the last place of the coordinates; planners keep ε/2.
+        if epsilon < 4.0 * f64::EPSILON * largest {
+            return Err(SceneError::FarAway { diagonal, largest, epsilon });
         }
         Ok(())
     }

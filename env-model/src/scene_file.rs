@@ -1,8 +1,11 @@
 //! The stable scene format: TOML to [`Scene`] with exact places in errors, and back.
 
 use std::fmt::Write as _;
+use std::ops::Range;
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
 
 use crate::scene::{Obstacle, Place, Scene, SceneError, Shape};
 use crate::source::{Key, Source, span_of};
@@ -17,25 +20,44 @@ pub(crate) struct ObstacleFields {
     #[serde(skip_serializing_if = "Option::is_none")]
     capsule: Option<Capsule>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    polygon: Option<Vec<[f64; 2]>>,
+    polygon: Option<Vec<Pair>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    velocity: Option<[f64; 2]>,
+    velocity: Option<Pair>,
     #[serde(skip_serializing_if = "Option::is_none")]
     label: Option<String>,
+}
+
+/// Exactly two numbers; a plain `[f64; 2]` would read the first two of more.
+#[derive(Serialize, Deserialize)]
+#[serde(try_from = "Vec<f64>")]
+struct Pair([f64; 2]);
+
+impl TryFrom<Vec<f64>> for Pair {
+    type Error = String;
+
+    fn try_from(numbers: Vec<f64>) -> Result<Self, String> {
+        let count = numbers.len();
+        numbers.try_into().map(Self).map_err(|_| format!("{count} numbers; expected two, [x, y]"))
+    }
+}
+
+/// Reads [`Pair`] where a field's type is the bare array.
+pub(crate) fn pair<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f64; 2], D::Error> {
+    Pair::deserialize(deserializer).map(|pair| pair.0)
 }
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Disc {
-    centre: [f64; 2],
+    centre: Pair,
     radius: f64,
 }
 
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Capsule {
-    from: [f64; 2],
-    to: [f64; 2],
+    from: Pair,
+    to: Pair,
     radius: f64,
 }
 
@@ -45,24 +67,25 @@ impl TryFrom<ObstacleFields> for Obstacle {
     fn try_from(fields: ObstacleFields) -> Result<Self, String> {
         let ObstacleFields { disc, capsule, polygon, velocity, label } = fields;
         let shape = match (disc, capsule, polygon) {
-            (Some(Disc { centre, radius }), None, None) => Shape::Disc { centre, radius },
-            (None, Some(Capsule { from, to, radius }), None) => Shape::Capsule { from, to, radius },
-            (None, None, Some(corners)) => Shape::Polygon(corners),
-            (None, None, None) => return Err("an obstacle without shape; expected disc, capsule or polygon".into()),
-            _ => return Err("an obstacle with several shapes; expected one of disc, capsule, polygon".into()),
+            (Some(Disc { centre, radius }), None, None) => Shape::Disc { centre: centre.0, radius },
+            (None, Some(Capsule { from, to, radius }), None) => Shape::Capsule { from: from.0, to: to.0, radius },
+            (None, None, Some(corners)) => Shape::Polygon(corners.into_iter().map(|c| c.0).collect()),
+            _ => return Err(ONE_SHAPE.to_owned()),
         };
-        Ok(Self { shape, velocity, label })
+        Ok(Self { shape, velocity: velocity.map(|v| v.0), label })
     }
 }
 
 impl From<Obstacle> for ObstacleFields {
     fn from(obstacle: Obstacle) -> Self {
         let Obstacle { shape, velocity, label } = obstacle;
-        let mut fields = Self { disc: None, capsule: None, polygon: None, velocity, label };
+        let mut fields = Self { disc: None, capsule: None, polygon: None, velocity: velocity.map(Pair), label };
         match shape {
-            Shape::Disc { centre, radius } => fields.disc = Some(Disc { centre, radius }),
-            Shape::Capsule { from, to, radius } => fields.capsule = Some(Capsule { from, to, radius }),
-            Shape::Polygon(corners) => fields.polygon = Some(corners),
+            Shape::Disc { centre, radius } => fields.disc = Some(Disc { centre: Pair(centre), radius }),
+            Shape::Capsule { from, to, radius } => {
+                fields.capsule = Some(Capsule { from: Pair(from), to: Pair(to), radius });
+            }
+            Shape::Polygon(corners) => fields.polygon = Some(corners.into_iter().map(Pair).collect()),
         }
         fields
     }
@@ -71,7 +94,12 @@ impl From<Obstacle> for ObstacleFields {
 pub(crate) fn parse(path: &str, text: &str) -> Result<Scene, FileError> {
     let source = Source { path, text };
     let table = source.parse_toml()?;
-    let scene = Scene::deserialize(toml::Deserializer::from(table.clone())).map_err(|e| source.toml_error(&e))?;
+    let scene = Scene::deserialize(toml::Deserializer::from(table.clone())).map_err(|e| {
+        // The library places what `try_from` refuses at the first obstacle, whichever it is.
+        let misplaced = e.message().contains(ONE_SHAPE);
+        let span = shapeless(&table).filter(|_| misplaced);
+        span.map_or_else(|| source.toml_error(&e), |span| source.error_at(span, ONE_SHAPE))
+    })?;
     let place = |error: SceneError| {
         let place = error.place();
         let message = error.to_string();
@@ -96,6 +124,15 @@ pub(crate) fn parse(path: &str, text: &str) -> Result<Scene, FileError> {
     let world = World::new(&scene).map_err(place)?;
     scene.validate_ends(&world).map_err(place)?;
     Ok(scene)
+}
+
+const ONE_SHAPE: &str = "an obstacle must have exactly one shape; expected one of disc, capsule, polygon";
+
+/// The first obstacle that has not exactly one shape.
+fn shapeless(table: &Spanned<DeTable<'_>>) -> Option<Range<usize>> {
+    let obstacles = table.get_ref().get("obstacle")?.get_ref().as_array()?;
+    let shapes = |o: &DeValue<'_>| ["disc", "capsule", "polygon"].iter().filter(|k| o.get(**k).is_some()).count();
+    obstacles.iter().find(|o| o.get_ref().is_table() && shapes(o.get_ref()) != 1).map(Spanned::span)
 }
 
 pub(crate) fn write(scene: &Scene) -> String {
@@ -188,7 +225,11 @@ polygon = [[7.0, 2.0], [8.0, 2.0], [8.0, 3.0]]
             ),
             ("polygon =", "pentagon =", "scene.toml:13:1: unknown field `pentagon`"),
             ("name = \"demo\"", "name = demo", "scene.toml:1:8:"),
-            ("label = ", "polygon = [[0.0, 0.0]]\nlabel = ", "an obstacle with several shapes"),
+            ("label = ", "polygon = [[0.0, 0.0]]\nlabel = ", "scene.toml:6:1: an obstacle must have exactly one shape"),
+            ("capsule = {", "label = \"none\" #", "scene.toml:9:1: an obstacle must have exactly one shape"),
+            ("goal = [10.0, 0.0]", "goal = [10.0, 0.0, 1.0]", "scene.toml:3:8: 3 numbers; expected two, [x, y]"),
+            ("[8.0, 3.0]", "[8.0]", "1 numbers; expected two, [x, y]"),
+            ("name = \"demo\"", "name = \"a\\nb\"", "scene.toml:1:8: name \"a\\nb\"; expected 1 to 100 printable"),
         ];
         for (from, to, expected) in cases {
             let message = error(from, to);

@@ -13,7 +13,6 @@ pub struct World {
     bvh: Bvh,
     /// Where the robot's centre may be.
     inner_field: Option<Aabb>,
-    field: Option<Aabb>,
     aabb: Aabb,
     epsilon: f64,
 }
@@ -44,7 +43,6 @@ impl World {
             bvh: Bvh::build(&boxes),
             obstacles,
             inner_field: field.map(|f| f.inflated(-scene.robot_radius)),
-            field,
             aabb: scene.aabb(),
             epsilon,
         })
@@ -64,11 +62,6 @@ impl World {
     /// accepts stays valid for the judge, who allows ε, after rounding.
     pub fn slack(&self) -> f64 {
         0.5 * self.epsilon
-    }
-
-    /// The field, if the scene has one.
-    pub fn field(&self) -> Option<&Aabb> {
-        self.field.as_ref()
     }
 
     /// Where the robot's centre may be: the field less the robot's radius.
@@ -108,8 +101,13 @@ impl World {
     }
 
     /// Whether the robot may move along `a b`: clearance ≥ −ε/2 on the whole segment.
+    /// Never when a coordinate is not finite.
     pub fn segment_free(&self, a: Point, b: Point) -> bool {
         let slack = self.slack();
+        let d = b - a;
+        if !(d.x + d.y).is_finite() {
+            return false;
+        }
         // The field is convex: its corners decide.
         let inside = self.inner_field.is_none_or(|f| f.depth_of(a) >= -slack && f.depth_of(b) >= -slack);
         inside && !self.bvh.any_along(a, b, |i| !self.obstacles[i].segment_free(a, b, slack))
@@ -147,8 +145,15 @@ impl World {
     }
 
     /// Where `path` first goes deeper than ε into an obstacle or over the border; `None` for a valid path.
+    /// A point that is not finite is outside everything: depth +∞, no obstacle.
     pub fn first_violation(&self, path: &[Point]) -> Option<Violation> {
-        path.windows(2).enumerate().find_map(|(segment, w)| self.segment_violation(segment, w[0], w[1]))
+        path.windows(2).enumerate().find_map(|(segment, w)| {
+            let lost = w.iter().find(|p| !(p.x.is_finite() && p.y.is_finite()));
+            match lost {
+                Some(&at) => Some(Violation { segment, at, obstacle: None, depth: f64::INFINITY }),
+                None => self.segment_violation(segment, w[0], w[1]),
+            }
+        })
     }
 
     fn segment_violation(&self, segment: usize, a: Point, b: Point) -> Option<Violation> {
@@ -211,7 +216,11 @@ mod tests {
         assert_eq!((v.segment, v.obstacle), (0, Some(0)));
         assert!((world.obstacles()[0].point_clearance(v.at)).abs() < 1e-6);
         assert!(!world.segment_free(scene.start(), scene.goal()));
-        assert!((world.segment_clearance(scene.start(), scene.goal()) + v.depth).abs() < 16.0);
+        // Entered first, but not deepest: the line passes 15.3 from the centre of disc 0.
+        let depth = -world.obstacles()[0].segment_clearance(scene.start(), scene.goal());
+        assert_eq!(v.depth, depth);
+        let deepest = world.obstacles().iter().map(|o| o.segment_clearance(scene.start(), scene.goal()));
+        assert_eq!(world.segment_clearance(scene.start(), scene.goal()), deepest.fold(f64::INFINITY, f64::min));
     }
 
     #[test]
@@ -226,6 +235,37 @@ mod tests {
         assert!(!world.segment_free(p(240.0, 161.0), p(240.0, 161.0)), "zero length inside");
         let v = world.first_violation(&[p(240.0, 160.0), p(0.0, 160.0)]).unwrap();
         assert_eq!((v.at, v.depth), (p(240.0, 160.0), 16.0), "start inside");
+    }
+
+    #[test]
+    fn what_is_not_finite_is_not_free() {
+        let scene = paper();
+        let world = World::new(&scene).unwrap();
+        for lost in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let p = Point::new(lost, 0.0);
+            assert!(!world.segment_free(scene.start(), p) && !world.segment_free(p, p));
+            assert!(!world.path_free(&[scene.start(), p, scene.goal()]));
+            assert!(world.first_violation(&[scene.start(), p, scene.goal()]).is_some());
+        }
+    }
+
+    #[test]
+    fn scenes_that_floating_point_cannot_carry_are_refused() {
+        use crate::SceneError;
+        let moved = |factor: f64, offset: f64| {
+            let mut scene = paper();
+            scene.obstacles.clear();
+            for end in [&mut scene.start, &mut scene.goal] {
+                *end = end.map(|v| v * factor + offset);
+            }
+            scene.validate()
+        };
+        assert_eq!(moved(1.0, 0.0), Ok(()));
+        assert_eq!(moved(1e-6, 0.0), Ok(()));
+        assert_eq!(moved(1.0, 1e8), Ok(()));
+        assert!(matches!(moved(1.0, 1e10), Err(SceneError::FarAway { .. })));
+        assert!(matches!(moved(1e-160, 0.0), Err(SceneError::Size { .. })));
+        assert!(matches!(moved(1e160, 0.0), Err(SceneError::Size { .. })));
     }
 
     #[test]

@@ -211,8 +211,8 @@ fn mistakes_say_what_was_expected() {
         "generator ssl-a with 23 obstacles; expected no number: a game always has 23"
     );
     assert_eq!(
-        message(generate(Generator::Open, Some(1_000_001), 0, 0).unwrap_err()),
-        "generator open with 1000001 obstacles; expected at most 1000000"
+        message(generate(Generator::Open, Some(100_001), 0, 0).unwrap_err()),
+        "generator open with 100001 obstacles; expected at most 100000"
     );
     for generator in Generator::ALL {
         assert_eq!(Generator::from_name(generator.name()), Ok(generator));

@@ -247,7 +247,9 @@ fn random_segments_agree_with_parry() {
         let (a, b, promised) = segment(&mut draw, mode, &shape, robot, scale);
         let expected = oracle(&shape, robot, a, b);
 
-        let scene = scene(vec![shape.clone().into()], robot, a, b);
+        // Start and goal of a scene must differ; the segment's ends need not.
+        let goal = if (b - a).norm() > 1e-6 * scale { b } else { a + Vector::new(scale, scale) };
+        let scene = scene(vec![shape.clone().into()], robot, a, goal);
         let world = World::new(&scene).unwrap();
         let band = BAND * scene.aabb().diagonal();
         let inflated = &world.obstacles()[0];

@@ -188,9 +188,4 @@ impl Results {
     pub fn runs_of<'a>(&'a self, planner: &'a str, scene: Option<&'a str>) -> impl Iterator<Item = &'a RunRecord> {
         self.runs.iter().filter(move |r| r.planner == planner && scene.is_none_or(|s| r.scene == s))
     }
-
-    /// Whether the campaign holds a scene whose optimum is known.
-    pub fn has_optimum(&self) -> bool {
-        self.scenes.iter().any(|s| s.optimum.length.is_some())
-    }
 }

@@ -38,7 +38,7 @@ pub struct Summary {
     pub length_quartiles: [f64; 2],
     /// Shortest valid length; +∞ without one.
     pub length_best: f64,
-    /// Median of length/optimum − 1; `None` where no optimum is known.
+    /// Median of length/optimum − 1; `None` unless the optimum of every scene is known.
     pub gap_median: Option<f64>,
     /// Median wall time of all runs, µs.
     pub time_us_median: f64,
@@ -53,14 +53,14 @@ pub fn counted_length(run: &RunRecord) -> f64 {
 
 /// Summarises the runs of one planner. `None` when it has no runs there.
 ///
-/// The gap's median is over the runs in scenes whose optimum is known;
-/// failures are +∞ in it.
+/// Failures are +∞ in every median.
 pub fn summarise(results: &Results, planner: &str, scene: Option<&str>) -> Option<Summary> {
     let runs: Vec<&RunRecord> = results.runs_of(planner, scene).collect();
     let of = |f: &dyn Fn(&RunRecord) -> f64| runs.iter().map(|r| f(r)).collect::<Vec<f64>>();
     let lengths = of(&counted_length);
+    // A median over the easier part of the scenes would drop the failures in the others.
     let known = |name: &str| results.scenes.iter().any(|s| s.scene.name == name && s.optimum.length.is_some());
-    let gaps: Vec<f64> = runs.iter().filter(|r| known(&r.scene)).map(|r| r.gap.unwrap_or(f64::INFINITY)).collect();
+    let gaps = runs.iter().all(|r| known(&r.scene)).then(|| of(&|r| r.gap.unwrap_or(f64::INFINITY)));
     Some(Summary {
         planner: planner.to_owned(),
         scene: scene.map(str::to_owned),
@@ -69,7 +69,7 @@ pub fn summarise(results: &Results, planner: &str, scene: Option<&str>) -> Optio
         length_median: median(&lengths)?,
         length_quartiles: [quantile(&lengths, 0.25)?, quantile(&lengths, 0.75)?],
         length_best: lengths.iter().copied().fold(f64::INFINITY, f64::min),
-        gap_median: median(&gaps),
+        gap_median: gaps.as_deref().and_then(median),
         time_us_median: median(&of(&|r| r.time_us))?,
         evaluations_median: median(&of(&|r| r.evaluations as f64))?,
     })

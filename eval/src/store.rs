@@ -84,7 +84,7 @@ pub struct Store {
 }
 
 impl Store {
-    /// Creates `folder/runs.db` for a campaign without runs.
+    /// Creates `folder/runs.db`, or fills it when it is empty, for a campaign without runs.
     pub fn create(folder: &Path, campaign: &Campaign, results: &Results) -> Result<Self, Error> {
         let path = folder.join(FILE);
         let fail = |source| Error::Store { path: path.clone(), source };

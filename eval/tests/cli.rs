@@ -151,6 +151,42 @@ fn default_folders_are_numbered() {
 }
 
 #[test]
+fn campaigns_begun_at_once_do_not_meet() {
+    let place = furnished("at-once");
+    fs::create_dir(place.0.join("there")).unwrap();
+    let start = |out: Option<&str>| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_touchline"));
+        command.args(["run", "small.toml", "--quiet"]).current_dir(&place.0);
+        out.map(|out| command.args(["--out", out]));
+        let piped = std::process::Stdio::piped;
+        command.stdout(piped()).stderr(piped()).spawn().unwrap()
+    };
+    let begun: Vec<_> = (0..6).map(|_| start(None)).collect();
+    for child in begun {
+        let output = child.wait_with_output().unwrap();
+        assert!(output.status.success(), "{}", text(&output.stderr));
+    }
+    let mut folders: Vec<_> = (2..=6).map(|n| format!("results/small-{n}")).collect();
+    folders.insert(0, "results/small".to_owned());
+    // Once in a new folder with new parents, once in one that was there, empty.
+    for out in ["new/deep/same", "there"] {
+        let begun: Vec<_> = (0..3).map(|_| start(Some(out))).collect();
+        let outputs: Vec<Output> = begun.into_iter().map(|child| child.wait_with_output().unwrap()).collect();
+        let errors: Vec<String> = outputs.iter().map(|o| text(&o.stderr)).collect();
+        assert_eq!(outputs.iter().filter(|o| o.status.success()).count(), 1, "{errors:?}");
+        for (output, error) in outputs.iter().zip(&errors).filter(|(o, _)| !o.status.success()) {
+            assert_eq!(output.status.code(), Some(2), "{error}");
+            assert!(error.contains("expected a new or empty folder"), "{error}");
+        }
+        folders.push(out.to_owned());
+    }
+    for folder in folders {
+        assert_eq!(place.read(&format!("{folder}/runs.csv")).lines().count(), 10, "{folder}");
+        assert!(place.read(&format!("{folder}/report.html")).ends_with("</html>"), "{folder}");
+    }
+}
+
+#[test]
 fn only_what_is_asked_for_fails() {
     let place = furnished("fail-on");
     let code = |args: &[&str]| place.run(args).status.code();
@@ -160,6 +196,7 @@ fn only_what_is_asked_for_fails() {
     assert_eq!(code(&valid), Some(0));
     assert!(place.run(&["run", "small.toml", "--out", "d", "--quiet"]).stdout.is_empty(), "quiet");
     let before = place.files();
+    assert_eq!(place.ok(&["run", "small.toml", "--dry-run", "--quiet"]), "");
     assert!(place.ok(&["run", "small.toml", "--dry-run"]).contains("= 9 runs"));
     assert_eq!(place.files(), before, "a dry run writes nothing");
 }
@@ -201,7 +238,7 @@ fn bad_input_is_refused_and_nothing_written() {
     place.write("empty.toml", "name = \"empty\"\nscenes = [\"one.toml\"]\n");
     place.refused(&["run", "empty.toml"], "empty.toml:1:1: an empty comparison: no planner");
     place.refused(&["run", "nowhere.toml"], "cannot read nowhere.toml");
-    place.refused(&["run", "small.toml", "--planner", "pzo"], "--planner pzo: no such label");
+    place.refused(&["run", "small.toml", "--planner", "pzo"], "no such label in comparison small");
     place.refused(&["run", "small.toml", "--repeats", "0"], "--repeats");
     place.refused(&["run", "small.toml", "--jobs", "0"], "--jobs");
     place.refused(&["run", "small.toml", "--out", "one.toml"], "one.toml");
@@ -257,6 +294,9 @@ fn one_plan_is_printed_drawn_and_traced() {
     }
     for what in ["planners", "generators", "metrics"] {
         let rows: Vec<serde_json::Value> = serde_json::from_str(&place.ok(&["list", what, "--json"])).unwrap();
-        assert_eq!(place.ok(&["list", what]).lines().count(), rows.len());
+        let printed = place.ok(&["list", what]);
+        // A planner's settings stand below it, indented.
+        assert_eq!(printed.lines().filter(|l| !l.starts_with(' ')).count(), rows.len());
+        assert!(what != "planners" || rows.iter().all(|r| r["settings"].is_object()));
     }
 }

@@ -210,7 +210,7 @@ fn ends_in_obstacles_are_typed_errors() {
     let inside = Point::new(241.0, 160.0);
     match Problem::new(&world, inside, scene.goal()) {
         Err(PlanError::InsideObstacle { end: "start", obstacle: 0, depth, .. }) => {
-            assert!((depth - 15.0).abs() < 1e-12)
+            assert!((depth - 15.0).abs() < 1e-12);
         }
         other => panic!("{other:?}"),
     }

@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use env_model::generate::{Generator, generate};
 use planner_api::{Budget, Plan, Planner, Problem, Run};
 
 #[path = "../suite/planners.rs"]
@@ -30,7 +31,9 @@ fn median_overshoot(planner: &mut dyn Planner, problem: &Problem<'_>) -> Duratio
 /// that overshoots by itself does so in every series.
 #[test]
 fn a_deadline_of_a_millisecond_is_overshot_by_less_than_one_at_the_median() {
-    for scene in scenes::all() {
+    let crowd = |generator, obstacles| generate(generator, Some(obstacles), 3, 0).unwrap();
+    let crowds = [crowd(Generator::Wall, 200), crowd(Generator::Scrum, 300), crowd(Generator::Open, 1000)];
+    for scene in scenes::all().into_iter().chain(crowds) {
         let world = scenes::world(&scene);
         let problem = Problem::new(&world, scene.start(), scene.goal()).unwrap();
         for (name, mut planner) in planners::planners() {

@@ -30,7 +30,7 @@ pub const ROBOT_RADIUS: f64 = 0.09;
 const CELL: f64 = 0.06;
 
 /// More would take gigabytes for the solvability check alone.
-const MOST_OBSTACLES: usize = 1_000_000;
+const MOST_OBSTACLES: usize = 100_000;
 
 /// Draws before a generator gives up. Games take two on average, the others hardly ever more than one.
 const ATTEMPTS: u32 = 1000;
@@ -154,7 +154,7 @@ impl Generator {
 
 /// Scene `index` of (`generator`, `seed`), named like `wall-s2-00`.
 ///
-/// `obstacles`: how many, `None` for the default; 0 … 10⁶ for `open`, 3 … 10⁶ for `wall`
+/// `obstacles`: how many, `None` for the default; 0 … 10⁵ for `open`, 3 … 10⁵ for `wall`
 /// and `scrum`, fixed for the game scenes. Every scene passes [`Scene::validate_ends`],
 /// and a path from start to goal exists.
 pub fn generate(generator: Generator, obstacles: Option<usize>, seed: u64, index: u32) -> Result<Scene, GenerateError> {
@@ -180,10 +180,9 @@ pub fn generate(generator: Generator, obstacles: Option<usize>, seed: u64, index
             Generator::SslA => ssl::draw(&mut draw, &ssl::DIVISION_A),
             Generator::SslB => ssl::draw(&mut draw, &ssl::DIVISION_B),
         };
-        if let Some(mut scene) = candidate
-            && is_usable(&scene, generator.blocks_the_line())
-        {
-            scene.name = format!("{}-s{seed}-{index:02}", generator.name());
+        let Some(mut scene) = candidate else { continue };
+        scene.name = format!("{}-s{seed}-{index:02}", generator.name());
+        if is_usable(&scene, generator.blocks_the_line()) {
             return Ok(scene);
         }
     }

@@ -11,31 +11,54 @@ use crate::error::Error;
 use crate::metrics::METRICS;
 
 pub(super) fn list(args: &ListArgs) -> Result<ExitCode, Error> {
-    // Name, what it is, a word more; the keys of the JSON objects.
-    let (keys, rows): ([&str; 3], Vec<[String; 3]>) = match args.what {
+    // Name, what it is, a word more (the keys of the JSON objects); a planner's settings at their defaults.
+    let (keys, rows): ([&str; 3], Vec<Row>) = match args.what {
         Listed::Planners => {
-            let row = |k: &planner_catalogue::Kind| [k.name, k.summary, k.source].map(str::to_owned);
+            let row = |k: &planner_catalogue::Kind| Row {
+                cells: [k.name, k.summary, k.source].map(str::to_owned),
+                settings: Some(k.defaults()),
+            };
             (["name", "summary", "source"], kinds().iter().map(row).collect())
         }
         Listed::Generators => {
             let row = |g: Generator| {
-                [g.name().to_owned(), g.description().to_owned(), format!("{} obstacles", g.default_obstacles())]
+                let number = format!("{} obstacles", g.default_obstacles());
+                Row { cells: [g.name().to_owned(), g.description().to_owned(), number], settings: None }
             };
             (["name", "summary", "default"], Generator::ALL.into_iter().map(row).collect())
         }
         Listed::Metrics => {
-            let row = |m: &crate::metrics::Metric| [m.name, m.definition, m.unit].map(str::to_owned);
+            let row = |m: &crate::metrics::Metric| Row {
+                cells: [m.name, m.definition, m.unit].map(str::to_owned),
+                settings: None,
+            };
             (["name", "definition", "unit"], METRICS.iter().map(row).collect())
         }
     };
     if args.json {
-        let object = |row: &[String; 3]| json!({ keys[0]: row[0], keys[1]: row[1], keys[2]: row[2] });
+        let object = |Row { cells, settings }: &Row| {
+            let mut object = json!({ keys[0]: cells[0], keys[1]: cells[1], keys[2]: cells[2] });
+            if let Some(settings) = settings {
+                object["settings"] = json!(settings);
+            }
+            object
+        };
         say(json!(rows.iter().map(object).collect::<Vec<_>>()));
         return Ok(ExitCode::SUCCESS);
     }
-    let width = rows.iter().map(|row| row[0].len()).max().unwrap_or(0);
-    for [name, what, more] in rows {
+    let width = rows.iter().map(|row| row.cells[0].len()).max().unwrap_or(0);
+    for Row { cells: [name, what, more], settings } in rows {
         say(format!("{name:width$}  {what} [{more}]"));
+        let settings = settings.unwrap_or_default();
+        let settings: Vec<String> = settings.iter().map(|(key, value)| format!("{key} = {value}")).collect();
+        if !settings.is_empty() {
+            say(format!("{:width$}    {}", "", settings.join(", ")));
+        }
     }
     Ok(ExitCode::SUCCESS)
+}
+
+struct Row {
+    cells: [String; 3],
+    settings: Option<toml::Table>,
 }

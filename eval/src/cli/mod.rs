@@ -94,8 +94,8 @@ struct RunArgs {
     /// Threads; results are the same, but times are only fair with 1
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
     jobs: u16,
-    /// Only the planners of these labels
-    #[arg(long, value_name = "LABEL", num_args = 1.., value_delimiter = ',')]
+    /// Only the planners of these labels, each an argument, or separated by commas
+    #[arg(long, value_name = "LABEL", num_args = 1..)]
     planner: Vec<String>,
     /// Say what would be run, and run nothing
     #[arg(long)]

@@ -1,37 +1,48 @@
 //! Where a campaign may leave its results.
 
-use std::fs;
+use std::fs::{self, OpenOptions};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use crate::error::Error;
 use crate::store::{self, Store};
 
-/// The folder for a campaign called `name`: `out` if it is new or empty, else
-/// `results/<name>`, numbered when taken. Creates nothing.
+/// The folder that a campaign called `name` would get: `out` if it is new or empty, else
+/// `results/<name>`, numbered when taken. Creates nothing, and so promises nothing.
 pub(super) fn choose(out: Option<&Path>, name: &str) -> Result<PathBuf, Error> {
-    if let Some(out) = out {
-        return if is_free(out)? { Ok(out.to_owned()) } else { Err(refusal(out)) };
+    match out {
+        Some(out) if is_free(out)? => Ok(out.to_owned()),
+        Some(out) => Err(refusal(out)),
+        None => numbered(name).find(|folder| folder.symlink_metadata().is_err()).ok_or_else(|| none_free(name)),
     }
-    let results = Path::new("results");
-    for number in 1u32.. {
-        let folder = results.join(if number == 1 { name.to_owned() } else { format!("{name}-{number}") });
-        // A file of that name counts as taken; other trouble shows when the folder is made.
-        if is_free(&folder).unwrap_or(!folder.exists()) {
-            return Ok(folder);
-        }
-    }
-    Err(Error::Usage(format!("no free folder results/{name}-…; name one with --out")))
+}
+
+/// `results/<name>`, `results/<name>-2`, ….
+fn numbered(name: &str) -> impl Iterator<Item = PathBuf> + '_ {
+    let numbers = (2u32..).map(move |number| format!("{name}-{number}"));
+    std::iter::once(name.to_owned()).chain(numbers).map(|name| Path::new("results").join(name))
+}
+
+fn none_free(name: &str) -> Error {
+    Error::Usage(format!("no free folder results/{name}-…; name one with --out"))
 }
 
 fn is_free(folder: &Path) -> Result<bool, Error> {
     match fs::read_dir(folder) {
         Ok(mut entries) => Ok(entries.next().is_none()),
-        Err(e) if e.kind() == std::io::ErrorKind::NotFound => Ok(true),
+        Err(e) if e.kind() == ErrorKind::NotFound => Ok(true),
         Err(e) => Err(Error::io("use the folder", folder)(e)),
     }
 }
 
 fn refusal(folder: &Path) -> Error {
+    let database = folder.join(store::FILE);
+    let begun = database.metadata().is_ok_and(|file| file.len() > 0);
+    if database.exists() && !begun {
+        // Not to be opened: it may become another campaign's at this moment.
+        let message = "holds a campaign that is just beginning, or never began; expected a new or empty folder";
+        return Error::Foreign { path: folder.to_owned(), message: message.to_owned() };
+    }
     let message = match Store::open(folder).and_then(|store| store.read()) {
         Ok(stored) => {
             let manifest = &stored.results.manifest;
@@ -41,48 +52,101 @@ fn refusal(folder: &Path) -> Error {
                 stored.results.name, manifest.started, manifest.identity
             )
         }
-        Err(e) if folder.join(store::FILE).exists() => format!("holds a {} that is no campaign's: {e}", store::FILE),
+        Err(e) if begun => {
+            format!("holds a {} that cannot be read as a campaign's ({e}); expected a new or empty folder", store::FILE)
+        }
         Err(_) => "holds other files; expected a new or empty folder".to_owned(),
     };
     Error::Foreign { path: folder.to_owned(), message }
 }
 
-/// A folder under construction, which was new or empty: what was made in it is removed again unless kept.
-pub(super) struct Folder {
+/// A folder that is this campaign's alone, until kept: whatever the claim created is removed again unless kept,
+/// and nothing else ever is.
+#[derive(Default)]
+pub(super) struct Claim {
     folder: PathBuf,
-    /// Folders that did not exist before, the deepest first.
+    /// Folders that did not exist before, the deepest last.
     created: Vec<PathBuf>,
+    /// Whether the folder's `runs.db` is ours.
+    taken: bool,
     keep: bool,
 }
 
-impl Folder {
-    /// Creates `folder` and its parents and makes sure that files can be written in it.
-    pub(super) fn create(folder: &Path) -> Result<Self, Error> {
-        let missing = folder.ancestors().take_while(|p| !p.as_os_str().is_empty() && !p.exists());
-        let created = missing.map(Path::to_owned).collect();
-        let this = Self { folder: folder.to_owned(), created, keep: false };
-        fs::create_dir_all(folder).map_err(Error::io("create", folder))?;
-        let probe = folder.join(".touchline-probe");
-        fs::write(&probe, "").map_err(Error::io("write into", folder))?;
-        let _ = fs::remove_file(&probe);
-        Ok(this)
+impl Claim {
+    /// Claims the folder that [`choose`] describes. Of several processes that want the same one, one gets it:
+    /// who creates the empty `runs.db`.
+    pub(super) fn new(out: Option<&Path>, name: &str) -> Result<Self, Error> {
+        let mut claim = Self::default();
+        if let Some(out) = out {
+            claim.make(out)?;
+            return if is_free(out)? && claim.take(out)? { Ok(claim) } else { Err(refusal(out)) };
+        }
+        for folder in numbered(name) {
+            if claim.make(&folder)? && claim.take(&folder)? {
+                return Ok(claim);
+            }
+        }
+        Err(none_free(name))
+    }
+
+    /// Creates `folder` and its parents; `false` when it was there.
+    fn make(&mut self, folder: &Path) -> Result<bool, Error> {
+        let mut attempts = 8;
+        loop {
+            match (fs::create_dir(folder), folder.parent()) {
+                (Ok(()), _) => {
+                    self.created.push(folder.to_owned());
+                    return Ok(true);
+                }
+                (Err(e), _) if e.kind() == ErrorKind::AlreadyExists => return Ok(false),
+                // More than once, since another process may remove the parent that it created.
+                (Err(e), Some(parent))
+                    if e.kind() == ErrorKind::NotFound && attempts > 0 && !parent.as_os_str().is_empty() =>
+                {
+                    attempts -= 1;
+                    self.make(parent)?;
+                }
+                (Err(e), _) => return Err(Error::io("create", folder)(e)),
+            }
+        }
+    }
+
+    /// Creates `runs.db`, empty, which also shows that files can be written; `false` when it was there.
+    fn take(&mut self, folder: &Path) -> Result<bool, Error> {
+        match OpenOptions::new().write(true).create_new(true).open(folder.join(store::FILE)) {
+            Ok(_) => {
+                (self.folder, self.taken) = (folder.to_owned(), true);
+                Ok(true)
+            }
+            Err(e) if e.kind() == ErrorKind::AlreadyExists => Ok(false),
+            Err(e) => Err(Error::io("write into", folder)(e)),
+        }
     }
 
     /// The folder stays.
-    pub(super) fn keep(mut self) {
+    pub(super) fn keep(mut self) -> PathBuf {
         self.keep = true;
+        std::mem::take(&mut self.folder)
+    }
+
+    /// The folder claimed.
+    pub(super) fn folder(&self) -> &Path {
+        &self.folder
     }
 }
 
-impl Drop for Folder {
+impl Drop for Claim {
     fn drop(&mut self) {
         if self.keep {
             return;
         }
-        for suffix in ["", "-wal", "-shm", "-journal"] {
-            let _ = fs::remove_file(self.folder.join(format!("{}{suffix}", store::FILE)));
+        if self.taken {
+            // `runs.db` last: without it the folder is anybody's.
+            for suffix in ["-wal", "-shm", "-journal", ""] {
+                let _ = fs::remove_file(self.folder.join(format!("{}{suffix}", store::FILE)));
+            }
         }
-        for folder in &self.created {
+        for folder in self.created.iter().rev() {
             // Fails, as it should, where anybody else has put something.
             let _ = fs::remove_dir(folder);
         }
@@ -96,16 +160,20 @@ mod tests {
     #[test]
     fn what_is_not_kept_leaves_no_trace() {
         let root = std::env::temp_dir().join(format!("touchline-output-{}", std::process::id()));
+        let claim = |folder: &Path| Claim::new(Some(folder), "x");
         let deep = root.join("a/b");
-        drop(Folder::create(&deep).unwrap());
+        drop(claim(&deep).unwrap());
         assert!(!root.exists());
-        Folder::create(&deep).unwrap().keep();
-        assert!(deep.is_dir());
+        fs::create_dir_all(&deep).unwrap();
+        drop(claim(&deep).unwrap());
+        assert_eq!(choose(Some(&deep), "x").unwrap(), deep, "empty again, and still there");
+        assert_eq!(claim(&deep).unwrap().keep(), deep);
+        assert!(claim(&deep).is_err(), "claimed");
+        assert!(deep.join(store::FILE).exists(), "a refused claim removes nothing");
         fs::write(root.join("a/notes"), "mine").unwrap();
-        drop(Folder::create(&root.join("a/c")).unwrap());
+        drop(claim(&root.join("a/c")).unwrap());
         assert!(root.join("a/notes").exists() && !root.join("a/c").exists());
         assert!(choose(Some(&root.join("a")), "x").is_err(), "other files");
-        assert_eq!(choose(Some(&deep), "x").unwrap(), deep, "empty");
         fs::remove_dir_all(&root).unwrap();
     }
 }

@@ -67,6 +67,9 @@ fn settings(pairs: &[String]) -> Result<String, Error> {
         if last.is_empty() || keys.iter().any(|k| k.is_empty()) {
             return Err(Error::Usage(format!("--set {pair}; expected KEY=VALUE")));
         }
+        if keys.is_empty() && last == "kind" {
+            return Err(Error::Usage(format!("--set {pair}; the kind is what --planner says")));
+        }
         let mut inner = &mut table;
         for key in keys {
             let entry = inner.entry(key).or_insert_with(|| toml::Table::new().into());

@@ -1,6 +1,6 @@
 //! `touchline run`.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use super::{FailOn, RunArgs, output, say};
@@ -33,10 +33,12 @@ pub(super) fn run(args: &RunArgs) -> Result<ExitCode, Error> {
         say(campaign.size(jobs));
     }
     if args.dry_run {
-        dry_run(&campaign, &folder);
+        if !args.quiet {
+            dry_run(&campaign, &folder);
+        }
         return Ok(ExitCode::SUCCESS);
     }
-    let results = carry_out(&campaign, &folder, jobs, args.quiet)?;
+    let (folder, results) = carry_out(&campaign, args.out.as_deref(), jobs, args.quiet)?;
     if !args.quiet {
         say("");
         say(table::render(&results));
@@ -74,11 +76,11 @@ fn dry_run(campaign: &Campaign, folder: &Path) {
     say(format!("Would write to {}; nothing was run.", folder.display()));
 }
 
-fn carry_out(campaign: &Campaign, folder: &Path, jobs: usize, quiet: bool) -> Result<Results, Error> {
-    let guard = output::Folder::create(folder)?;
+fn carry_out(campaign: &Campaign, out: Option<&Path>, jobs: usize, quiet: bool) -> Result<(PathBuf, Results), Error> {
+    let claim = output::Claim::new(out, &campaign.comparison.name)?;
     let results = campaign.empty_results(jobs);
-    let mut store = Store::create(folder, campaign, &results)?;
-    guard.keep();
+    let mut store = Store::create(claim.folder(), campaign, &results)?;
+    let folder = claim.keep();
     let optima: Vec<Option<f64>> = results.scenes.iter().map(|s| s.optimum.length).collect();
     let mut progress = Progress::new(campaign.run_count(), quiet);
     runner::run(campaign, &optima, jobs, |record| {
@@ -91,8 +93,8 @@ fn carry_out(campaign: &Campaign, folder: &Path, jobs: usize, quiet: bool) -> Re
     store.finish(&manifest)?;
     // From the store, as `report` does it: what is exported is what was kept.
     let stored = store.read()?;
-    export::write(folder, &stored, Formats::ALL, Language::English)?;
-    Ok(stored.results)
+    export::write(&folder, &stored, Formats::ALL, Language::English)?;
+    Ok((folder, stored.results))
 }
 
 /// What a reader of the table ought to know.

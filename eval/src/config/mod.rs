@@ -103,12 +103,19 @@ impl Comparison {
     }
 
     /// Keeps only the planners of these labels, in the file's order; `Err` names the first label that is none.
+    /// What is no label itself may be several, separated by commas.
     pub fn keep_planners(&mut self, labels: &[String]) -> Result<(), String> {
+        let is_label = |text: &str| self.planners.iter().any(|p| p.label == text);
+        let split = |text: &String| match is_label(text) {
+            true => vec![text.clone()],
+            false => text.split(',').map(|part| part.trim().to_owned()).collect(),
+        };
+        let labels: Vec<String> = labels.iter().flat_map(split).collect();
         if let Some(unknown) = labels.iter().find(|label| self.planners.iter().all(|p| p.label != **label)) {
-            let known: Vec<&str> = self.planners.iter().map(|p| p.label.as_str()).collect();
+            let known: Vec<String> = self.planners.iter().map(|p| format!("{:?}", p.label)).collect();
             let hint = if unknown.ends_with(".toml") { " (name the comparison before --planner)" } else { "" };
             return Err(format!(
-                "--planner {unknown}: no such label in comparison {}{hint}; expected some of: {}",
+                "--planner {unknown:?}: no such label in comparison {}{hint}; expected some of: {}",
                 self.name,
                 known.join(", ")
             ));

@@ -56,6 +56,12 @@ impl BudgetSpec {
         {
             return Err(source.error_at(span, format!("time_ms = {time_ms}; expected a number above 0, at most a day")));
         }
+        for (key, count) in [("iterations", over.iterations), ("evaluations", over.evaluations)] {
+            // What a TOML integer can hold, so that the resolved comparison can be written.
+            if let Some(count) = count.filter(|c| i64::try_from(*c).is_err()) {
+                return Err(source.error_at(span, format!("{key} = {count}; expected less than 2⁶³")));
+            }
+        }
         if over == Self::default() {
             return Err(source.error_at(span, "an empty budget; expected iterations, evaluations or time_ms"));
         }

@@ -169,9 +169,16 @@ fn copies_of_scenes_have_safe_and_different_names() {
 fn planners_can_be_picked_by_label() {
     let mut c = read(GOOD).unwrap();
     let error = c.keep_planners(&["swarm".into(), "pso".into()]).unwrap_err();
-    assert!(error.starts_with("--planner pso: no such label in comparison demo; expected some of: tangent, swarm"));
-    c.keep_planners(&["swarm".into()]).unwrap();
-    assert_eq!(c.planners.len(), 1);
+    assert!(
+        error.starts_with(
+            "--planner \"pso\": no such label in comparison demo; expected some of: \"tangent\", \"swarm\""
+        )
+    );
+    c.keep_planners(&["swarm, tangent".into()]).unwrap();
+    assert_eq!(c.planners.len(), 2, "several, separated by commas");
+    c.planners[0].label = "swarm, tangent".into();
+    c.keep_planners(&["swarm, tangent".into()]).unwrap();
+    assert_eq!(c.planners.len(), 1, "a label with a comma is itself");
 }
 
 #[test]

@@ -31,7 +31,7 @@ pub fn backdrop(scene: &Scene, camera: &Camera, t: &Strings, id: &str, words: bo
     if scene.robot_radius > 0.0 && !scene.obstacles.is_empty() {
         // A stroke of twice the radius, round joins: the exact inflation of any
         // shape. Drawn wider first, then over it the inside: a ring round the union.
-        let wide = 2.0 * scene.robot_radius * camera.scale;
+        let wide = (2.0 * scene.robot_radius * camera.scale).min(1e9);
         let _ = write!(
             inside,
             r##"<defs><g id="{id}-s">{shapes}</g></defs><use href="#{id}-s" class="ring" style="stroke-width:{:.2}px"/><use href="#{id}-s" class="halo" style="stroke-width:{wide:.2}px"/><use href="#{id}-s" class="obstacle"/>"##,
@@ -111,7 +111,7 @@ pub(super) fn ends(scene: &Scene, camera: &Camera, t: &Strings, words: bool) -> 
 
 fn outline(scene: &Scene, camera: &Camera, index: usize, obstacle: &Obstacle) -> String {
     // A radius of 0 would not be drawn at all, not even its inflation.
-    let visible = |radius: f64| (radius * camera.scale).max(0.05);
+    let visible = |radius: f64| (radius * camera.scale).clamp(0.05, 1e9);
     let title = match &obstacle.label {
         Some(_) => format!("<title>{}</title>", escape(&scene.describe(index))),
         None => String::new(),

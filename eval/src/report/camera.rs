@@ -41,7 +41,12 @@ impl Camera {
         // Neither a ribbon nor a tower.
         let size = region.size();
         let grow = Vector::new((0.9 * size.y - size.x).max(0.0), (0.4 * size.x - size.y).max(0.0)) * 0.5;
-        let region = Aabb { min: region.min - grow, max: region.max + grow };
+        let mut region = Aabb { min: region.min - grow, max: region.max + grow };
+        let size = region.size();
+        // A scene of a size beyond all measure is drawn somehow, but without NaN.
+        if !(1e-200..1e200).contains(&size.x) || !(1e-200..1e200).contains(&size.y) {
+            region = Aabb { min: Point::new(-1.0, -1.0), max: Point::new(1.0, 1.0) };
+        }
         Self { region, scale: WIDTH / region.size().x }
     }
 

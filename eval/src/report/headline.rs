@@ -1,6 +1,7 @@
 //! The answer in one paragraph, computed from the runs.
 
 use super::language::Strings;
+use super::planned;
 use crate::format;
 use crate::results::Results;
 use crate::stats::{Summary, summarise};
@@ -46,7 +47,7 @@ pub fn headline(results: &Results, t: &Strings) -> String {
 fn size(results: &Results, t: &Strings) -> String {
     let (p, s, r) = (results.planners.len(), results.scenes.len(), results.repeats as usize);
     t.fill(
-        "headline_size",
+        if results.runs.len() < planned(results) { "headline_size_part" } else { "headline_size" },
         &[
             ("planners", &t.plural(p, "planners_one", "planners")),
             ("scenes", &t.plural(s, "scenes_one", "scenes")),
@@ -58,7 +59,8 @@ fn size(results: &Results, t: &Strings) -> String {
 
 /// Least median gap, or without optima least median length, and the runner-up.
 fn closest(rows: &[Summary], results: &Results, t: &Strings) -> Option<String> {
-    let by_gap = results.has_optimum();
+    // Gaps of some planners alone, or of other scenes for each, name nobody the closest.
+    let by_gap = rows.iter().all(|s| s.gap_median.is_some());
     // Lengths of different scenes have no common median worth a headline.
     if !by_gap && results.scenes.len() != 1 {
         return None;

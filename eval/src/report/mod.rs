@@ -34,6 +34,11 @@ const FULL: usize = 3;
 /// Scenes beyond these that get small pictures; the rest have their tables alone.
 const SMALL: usize = 24;
 
+/// Runs of the campaign when it is complete.
+pub fn planned(results: &Results) -> usize {
+    results.planners.len().saturating_mul(results.scenes.len()).saturating_mul(results.repeats as usize)
+}
+
 /// The report of a campaign as one HTML file without outside references.
 pub fn html(results: &Results, language: Language) -> String {
     let t = Strings::new(language);
@@ -70,7 +75,7 @@ pub fn html(results: &Results, language: Language) -> String {
         lang => language.tag(), t => t.to_value(), name => results.name.as_str(),
         css => Value::from_safe_string(css),
         script => Value::from_safe_string(include_str!("script.js").to_owned()),
-        headline => headline::headline(results, &t),
+        headline => headline::headline(results, &t), unfinished => unfinished(results, &t),
         table => tables::comparison(results, name, unit, &t),
         warnings => warnings(&results.manifest, &t),
         matrix => if one { Value::from(()) } else { tables::matrix(results) },
@@ -98,6 +103,13 @@ fn render(page: &Value) -> Result<String, minijinja::Error> {
 fn common_unit(results: &Results) -> &str {
     let units: BTreeSet<&str> = results.scenes.iter().map(|s| s.scene.unit.as_str()).collect();
     if units.len() == 1 { units.first().copied().unwrap_or("") } else { "" }
+}
+
+/// What to know before anything else of a campaign that lacks runs.
+fn unfinished(results: &Results, t: &Strings) -> Option<String> {
+    let (runs, planned) = (results.runs.len(), planned(results));
+    let count = |n: usize| crate::format::count(n as f64);
+    (runs < planned).then(|| t.fill("unfinished", &[("runs", &count(runs)), ("planned", &count(planned))]))
 }
 
 fn warnings(manifest: &Manifest, t: &Strings) -> Vec<String> {

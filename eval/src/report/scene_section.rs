@@ -146,7 +146,14 @@ pub fn spread(results: &Results, scenes: &[&SceneResult], id: &str, t: &Strings)
     } else {
         tables::with_unit(t.get("length_axis"), scenes.first().map_or("", |s| s.scene.unit.as_str()))
     };
-    let text = t.fill(if by_gap { "gap_text" } else { "length_text" }, &[("n", &runs)]);
+    let mut text = t.fill(if by_gap { "gap_text" } else { "length_text" }, &[("n", &runs)]);
+    let shown: usize = rows.iter().map(|r| r.values.len()).sum();
+    let left = results.runs.iter().filter(|r| scenes.iter().any(|s| s.scene.name == r.scene)).count() - shown;
+    if left > 0 {
+        let [shown, left] = [shown, left].map(|n| t.plural(n, "runs_one", "runs"));
+        text += t.get("sentence_gap");
+        text += &t.fill("gap_left_out", &[("runs", &shown), ("left", &left)]);
+    }
     let number = if by_gap { format::percent } else { format::length };
     strip::figure(&rows, &strip::Kind { id, title, axis: &axis, text: &text, number, floor: GAP_FLOOR }, t)
 }

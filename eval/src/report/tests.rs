@@ -204,6 +204,69 @@ fn poor_data_does_not_break_the_page() {
 }
 
 #[test]
+fn absurd_scenes_are_drawn_somehow() {
+    for size in [1e-320, 1e-310, 1e-200, 1e-20, 1e20, 1e200, 1e307] {
+        let mut results = results(&["a", "b"], &["one"], 6);
+        let scene = &mut results.scenes[0].scene;
+        (scene.start, scene.goal, scene.robot_radius) = ([0.0, 0.0], [10.0 * size, 0.0], 0.5 * size);
+        scene.obstacles = vec![
+            Obstacle::disc(Point::new(3.0 * size, 3.0 * size), size),
+            Shape::Capsule { from: [5.0 * size, -size], to: [7.0 * size, -size], radius: 0.5 * size }.into(),
+        ];
+        scene.field = Some(env_model::scene::Field { min: [-size, -6.0 * size], max: [12.0 * size, 8.0 * size] });
+        for r in &mut results.runs {
+            r.path = vec![Point::new(0.0, 0.0), Point::new(5.0 * size, 2.0 * size), Point::new(10.0 * size, 0.0)];
+            r.length = r.length.map(|l| l * size);
+            r.time_us *= size;
+            r.progress.iter_mut().for_each(|p| p.cost *= size);
+        }
+        for optimum in [Some(10.0 * size), None] {
+            results.scenes[0].optimum.length = optimum;
+            check(&html(&results, Language::English));
+        }
+    }
+}
+
+#[test]
+fn an_unfinished_campaign_says_so_first() {
+    let mut results = results(&["a", "b"], &["one", "two"], 400);
+    results.manifest.finished = "2026-01-01T00:00:00Z".to_owned();
+    let complete = html(&results, Language::English);
+    assert!(!complete.contains("class=\"unfinished\"") && !complete.contains("has not ended"));
+    results.manifest.finished.clear();
+    results.runs.truncate(630);
+    for (language, notice, end) in [
+        (Language::English, "Unfinished: 630 of 1600 runs are there", "<dd>has not ended</dd>"),
+        (Language::Chinese, "尚未完成：1600 次运行中已有 630 次", "<dd>尚未结束</dd>"),
+    ] {
+        let page = html(&results, language);
+        check(&page);
+        assert!(page.find(notice).unwrap() < page.find("class=\"headline\"").unwrap());
+        assert!(page.contains(end));
+    }
+    assert!(html(&results, Language::English).contains("So far: 630 runs."));
+}
+
+#[test]
+fn gaps_of_some_scenes_crown_nobody() {
+    let mut results = results(&["a", "b"], &["one", "two", "three"], 10);
+    assert!(html(&results, Language::English).contains("Closest to the exact optimum"));
+    results.scenes[1].optimum = Optimum { length: None, path: Vec::new(), reason: Some("no way".to_owned()) };
+    for r in results.runs.iter_mut().filter(|r| r.scene == "two") {
+        r.gap = None;
+    }
+    let page = html(&results, Language::English);
+    check(&page);
+    assert!(!page.contains("Closest to the exact optimum"));
+    assert!(page.contains("—: no median gap, because the exact optimum is not known in every scene."));
+    assert!(
+        page.contains("In this figure: 40 runs. Left out, because the optimum of their scene is not known: 20 runs.")
+    );
+    let table = page.split_once("id=\"overall-table\"").unwrap().1.split_once("</table>").unwrap().0;
+    assert_eq!(table.matches(">—</td>").count(), 2, "no gap for either planner");
+}
+
+#[test]
 fn many_scenes_are_folded() {
     let names: Vec<String> = (0..30).map(|i| format!("wall-s2-{i:02}")).collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();

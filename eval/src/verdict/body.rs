@@ -70,8 +70,13 @@ fn point_distance(segment: &Segment, p: Vector) -> f64 {
 
 /// Distance of two segments. parry finds the nearest points of crossing segments, but for nearly
 /// parallel ones it loses up to the square root of its accuracy; disjoint segments are nearest at
-/// an end point, and those four distances it computes to rounding. Each is an upper bound.
+/// an end point, and those four distances it computes to rounding. Each is an upper bound. Short
+/// crossing segments it may take for parallel ones; orientations tell them.
 fn segment_distance(s: &Segment, t: &Segment) -> f64 {
+    let side = |s: &Segment, p: Vector| (s.b - s.a).perp_dot(p - s.a);
+    if side(s, t.a) * side(s, t.b) < 0.0 && side(t, s.a) * side(t, s.b) < 0.0 {
+        return 0.0;
+    }
     [point_distance(s, t.a), point_distance(s, t.b), point_distance(t, s.a), point_distance(t, s.b)]
         .into_iter()
         .fold(distance_segment_segment(&Pose::IDENTITY, s, t), f64::min)

@@ -1,8 +1,10 @@
 //! The independent judge: is a path valid, and how near does it come?
 //!
-//! It shares nothing with the planners but the scene. Shapes and distances are
-//! parry's, every obstacle is tried (no broad phase), inflation and tolerance
-//! are the judge's own.
+//! It shares nothing with the planners but the scene (and its ε). Shapes and
+//! distances are parry's, every obstacle is tried (no broad phase), inflation is
+//! the judge's own. parry compares with absolute tolerances, so it gets to see
+//! the scene from the start, scaled by a power of two to a common size: that
+//! changes no digit but the exponent's.
 //!
 //! A path is valid when it starts and ends exactly at start and goal, every
 //! segment keeps a distance of at least (inflated radius − ε) from every
@@ -23,6 +25,30 @@ pub struct Judge<'s> {
     scene: &'s Scene,
     bodies: Vec<Body>,
     epsilon: f64,
+    lens: Lens,
+}
+
+/// From scene coordinates to those that parry computes in.
+#[derive(Clone, Copy)]
+struct Lens {
+    origin: [f64; 2],
+    scale: f64,
+}
+
+impl Lens {
+    /// Sees the scene from its start, its diagonal between 2¹⁰ and 2¹¹.
+    fn new(scene: &Scene) -> Self {
+        let exponent = scene.aabb().diagonal().log2().floor();
+        Self { origin: scene.start, scale: (10.0 - exponent).exp2() }
+    }
+
+    fn see(&self, [x, y]: [f64; 2]) -> Vector {
+        Vector::new((x - self.origin[0]) * self.scale, (y - self.origin[1]) * self.scale)
+    }
+
+    fn segment(&self, w: &[Point]) -> (Vector, Vector) {
+        (self.see([w[0].x, w[0].y]), self.see([w[1].x, w[1].y]))
+    }
 }
 
 /// Why a path is not valid.
@@ -66,20 +92,17 @@ impl fmt::Display for Fault {
     }
 }
 
-fn vector(p: [f64; 2]) -> Vector {
-    Vector::new(p[0], p[1])
-}
-
 impl<'s> Judge<'s> {
     /// The judge of a scene whose numbers are finite ([`Scene::validate`]).
     pub fn new(scene: &'s Scene) -> Self {
-        let grown = |radius: f64| radius + scene.robot_radius;
+        let lens = Lens::new(scene);
+        let grown = |radius: f64| (radius + scene.robot_radius) * lens.scale;
         let bodies = scene.obstacles.iter().map(|o| match &o.shape {
-            Shape::Disc { centre, radius } => Body::disc(vector(*centre), grown(*radius)),
-            Shape::Capsule { from, to, radius } => Body::capsule(vector(*from), vector(*to), grown(*radius)),
-            Shape::Polygon(corners) => Body::polygon(corners.iter().map(|c| vector(*c)).collect(), scene.robot_radius),
+            Shape::Disc { centre, radius } => Body::disc(lens.see(*centre), grown(*radius)),
+            Shape::Capsule { from, to, radius } => Body::capsule(lens.see(*from), lens.see(*to), grown(*radius)),
+            Shape::Polygon(corners) => Body::polygon(corners.iter().map(|c| lens.see(*c)).collect(), grown(0.0)),
         });
-        Self { scene, bodies: bodies.collect(), epsilon: scene.epsilon() }
+        Self { scene, bodies: bodies.collect(), epsilon: scene.epsilon(), lens }
     }
 
     /// The verdict: `Ok` for a valid path, else its first fault. O(segments × corners of all obstacles).
@@ -101,8 +124,9 @@ impl<'s> Judge<'s> {
             if !(self.border(w[0]) >= -self.epsilon && self.border(w[1]) >= -self.epsilon) {
                 return Err(Fault::Field { segment });
             }
-            let (a, b) = (Vector::new(w[0].x, w[0].y), Vector::new(w[1].x, w[1].y));
-            if let Some(index) = self.bodies.iter().position(|body| !body.lets_pass(a, b, self.epsilon)) {
+            let (a, b) = self.lens.segment(w);
+            let epsilon = self.epsilon * self.lens.scale;
+            if let Some(index) = self.bodies.iter().position(|body| !body.lets_pass(a, b, epsilon)) {
                 return Err(Fault::Obstacle { segment, obstacle: self.scene.describe(index) });
             }
         }
@@ -119,8 +143,8 @@ impl<'s> Judge<'s> {
         }
         let border = path.iter().map(|p| self.border(*p)).fold(f64::INFINITY, f64::min);
         let bodies = path.windows(2).flat_map(|w| {
-            let (a, b) = (Vector::new(w[0].x, w[0].y), Vector::new(w[1].x, w[1].y));
-            self.bodies.iter().map(move |body| body.clearance(a, b))
+            let (a, b) = self.lens.segment(w);
+            self.bodies.iter().map(move |body| body.clearance(a, b) / self.lens.scale)
         });
         Some(bodies.fold(border, f64::min))
     }

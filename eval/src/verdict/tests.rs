@@ -150,3 +150,32 @@ fn agrees_with_the_world_of_the_planners() {
     assert!(valid > 60 && entered > 300, "the test sees both: {valid} valid, {entered} entered");
     assert!(banded < 16, "and decides nearly all: {banded} in the band");
 }
+
+#[test]
+fn a_scene_is_judged_the_same_at_any_size_and_place() {
+    let capsule = |k: f64, o: f64| Shape::Capsule {
+        from: [o + 5.0 * k, o - 5.0 * k],
+        to: [o + 5.0 * k, o + 5.0 * k],
+        radius: 0.1 * k,
+    };
+    let block = |k: f64, o: f64| {
+        Shape::Polygon([[4.0, -1.0], [6.0, -1.0], [6.0, 1.0], [4.0, 1.0]].map(|c| c.map(|v| o + v * k)).to_vec())
+    };
+    for (k, o) in [(1e-9, 0.0), (1e-6, 0.0), (1e-5, 0.0), (1.0, 0.0), (1e6, 0.0), (1e90, 0.0), (1.0, 1e6), (1e-3, 1e3)]
+    {
+        for (shape, robot, depth) in [(capsule(k, o), 0.0, 0.1), (block(k, o), 0.09, 1.09), (block(k, o), 0.0, 1.0)] {
+            let mut scene = scene(robot * k, vec![shape]);
+            scene.start = [o, o];
+            scene.goal = [o + 10.0 * k, o];
+            assert_eq!(scene.validate(), Ok(()));
+            let judge = Judge::new(&scene);
+            let through = path(&[scene.start, scene.goal]);
+            assert!(judge.verdict(&through).is_err(), "size {k}, place {o}, robot {robot}");
+            let clearance = judge.clearance(&through).unwrap();
+            // ε is a billionth of the scene's diagonal, as far as coordinates of this size resolve.
+            assert!((clearance + depth * k).abs() < scene.epsilon(), "size {k}, place {o}: {clearance}");
+            let over = [[o, o], [o, o + 6.0 * k], [o + 10.0 * k, o + 6.0 * k], [o + 10.0 * k, o]];
+            assert_eq!(judge.verdict(&path(&over)), Ok(()), "size {k}, place {o}");
+        }
+    }
+}

@@ -18,7 +18,8 @@ pub enum Status {
 /// A path planner.
 pub trait Planner: Send {
     /// Plans into `plan`, whose buffers are reused: a second call of the same
-    /// size allocates nothing.
+    /// size allocates nothing (refined planners, which build programmes for a
+    /// solver, excepted).
     fn plan_into(&mut self, problem: &Problem<'_>, run: &mut Run<'_>, plan: &mut Plan) -> Result<Status, PlanError>;
 
     /// Plans into a new [`Plan`].

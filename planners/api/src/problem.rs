@@ -17,7 +17,7 @@ pub struct Problem<'a> {
 }
 
 impl<'a> Problem<'a> {
-    /// Checks that start and goal differ and are free.
+    /// Checks that start and goal differ by more than the world's ε and are free.
     ///
     /// # Errors
     /// [`PlanError`] names the end, how deep it lies and in what. Escaping from
@@ -38,7 +38,7 @@ impl<'a> Problem<'a> {
                 return Err(PlanError::InsideObstacle { end, x, y, depth: -d, obstacle });
             }
         }
-        if start == goal {
+        if (goal - start).norm() <= world.epsilon() {
             return Err(PlanError::StartIsGoal { x: start.x, y: start.y });
         }
         Ok(Self { world, start, goal })

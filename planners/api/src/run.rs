@@ -68,6 +68,13 @@ impl<'r> Run<'r> {
         !self.stopped
     }
 
+    /// Whether work that is neither iteration nor evaluation may go on. Reads
+    /// the clock only when there is a deadline.
+    pub fn in_time(&mut self) -> bool {
+        self.stopped |= self.late();
+        !self.stopped
+    }
+
     fn late(&self) -> bool {
         self.budget.deadline.is_some_and(|deadline| Instant::now() >= deadline)
     }

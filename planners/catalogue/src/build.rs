@@ -121,9 +121,9 @@ fn refiners(refine: Spanned<DeValue<'_>>) -> Result<(Vec<Box<dyn Refiner>>, Vec<
             return Err(error(span, format!("unknown refiner \"{kind}\"; expected \"qp\"")));
         }
         let settings: planner_qp::Settings = settings.parse()?;
+        let qp = Qp::new(settings.clone()).map_err(|e| BuildError::from(e).within("refine"))?;
         let mut full = table(&settings);
         full.insert("kind".into(), kind.into());
-        let qp = Qp::new(settings).map_err(|e| BuildError::from(e).within("refine"))?;
         refiners.push(Box::new(qp));
         resolved.push(full.into());
     }
@@ -195,6 +195,10 @@ mod tests {
         assert!(message("pso", "particle = 3").starts_with("particle: unknown field `particle`, expected one of"));
         assert_eq!(message("pso", "particles = 0"), "particles = 0; expected 1 to 10000");
         assert_eq!(message("pso", "columns = 0"), "columns = 0; expected 1 to 10000");
+        for kind in ["pso", "pso-qp"] {
+            let huge = message(kind, "iterations = 9223372036854775808");
+            assert_eq!(huge, "iterations = 9223372036854775808; expected 0 to 10000000");
+        }
         assert!(message("pso", "particles = -1").starts_with("-1: "));
         assert!(message("pso", "velocity_limit = \"some\"").contains("a fraction of H or \"none\""));
         assert!(message("pso", "velocity_limit = nan").contains("velocity_limit = NaN; expected a fraction of H"));

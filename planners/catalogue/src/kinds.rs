@@ -9,7 +9,7 @@ use serde::Serialize;
 use toml::Table;
 
 use crate::Refined;
-use crate::build::{BuildError, Settings};
+use crate::build::{BuildError, Settings, build_str};
 
 /// One kind of planner.
 #[derive(Debug, Clone, Copy)]
@@ -25,6 +25,13 @@ pub struct Kind {
 
 /// Builds a planner from its settings; returns every setting in force as well.
 type Make = fn(Settings<'_>) -> Result<(Box<dyn Planner>, Table), BuildError>;
+
+impl Kind {
+    /// Every setting at its default; what a bare `[planner.NAME]` builds.
+    pub fn defaults(&self) -> Table {
+        build_str(self.name, "").expect("defaults are valid").settings
+    }
+}
 
 /// All kinds, in the order of the documentation.
 pub fn kinds() -> &'static [Kind] {
@@ -44,8 +51,8 @@ pub fn kinds() -> &'static [Kind] {
             source: "baseline",
             make: |settings| {
                 let settings: RandomSearchSettings = settings.parse()?;
-                let resolved = table(&settings);
-                Ok((Box::new(RandomSearch::new(settings)?), resolved))
+                let planner = RandomSearch::new(settings.clone())?;
+                Ok((Box::new(planner), table(&settings)))
             },
         },
         Kind {
@@ -54,8 +61,8 @@ pub fn kinds() -> &'static [Kind] {
             source: "Lu & Sun 2012, Computer Technology and Development 22(7), 124-127",
             make: |settings| {
                 let settings = settings.parse::<planner_pso::Settings>()?.filled();
-                let resolved = table(&settings);
-                Ok((Box::new(Pso::new(settings)?), resolved))
+                let planner = Pso::new(settings.clone())?;
+                Ok((Box::new(planner), table(&settings)))
             },
         },
         Kind {
@@ -71,8 +78,8 @@ pub fn kinds() -> &'static [Kind] {
             source: "tangent visibility graph, after arXiv:1103.3911",
             make: |settings| {
                 let settings: planner_tangent::Settings = settings.parse()?;
-                let resolved = table(&settings);
-                Ok((Box::new(Tangent::new(settings)?), resolved))
+                let planner = Tangent::new(settings)?;
+                Ok((Box::new(planner), table(&settings)))
             },
         },
     ];
@@ -92,17 +99,17 @@ fn pso_qp(mut settings: Settings<'_>) -> Result<(Box<dyn Planner>, Table), Build
     if !remembers && classes == Classes::Swarm {
         pso.side_classes = SIDE_CLASSES;
     }
-    let mut resolved = table(&pso);
-    let mut qp_resolved = table(&qp);
-    if let Some(classes) = qp_resolved.remove("classes") {
+    let swarm = Pso::new(pso.clone())?;
+    let refiner = Qp::new(qp.clone()).map_err(|error| BuildError::from(error).within("qp"))?;
+    let (mut resolved, mut qp) = (table(&pso), table(&qp));
+    if let Some(classes) = qp.remove("classes") {
         resolved.insert("classes".into(), classes);
     }
-    resolved.insert("qp".into(), qp_resolved.into());
-    let qp = Qp::new(qp).map_err(|error| BuildError::from(error).within("qp"))?;
-    Ok((Box::new(Refined::new(Box::new(Pso::new(pso)?), vec![Box::new(qp)])), resolved))
+    resolved.insert("qp".into(), qp.into());
+    Ok((Box::new(Refined::new(Box::new(swarm), vec![Box::new(refiner)])), resolved))
 }
 
-/// Settings as TOML.
+/// Validated settings as TOML.
 pub(crate) fn table<T: Serialize>(settings: &T) -> Table {
     Table::try_from(settings).expect("settings are plain data")
 }

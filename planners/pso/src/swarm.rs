@@ -298,4 +298,46 @@ mod tests {
             }
         }
     }
+
+    /// Costs of the last pass against the environment model's own distances,
+    /// with every shape, a field and every rule of motion.
+    #[test]
+    fn fitness_counts_fields_capsules_and_polygons() {
+        let file = include_str!("../../../configs/scenes/mixed-shapes.toml");
+        let scene = Scene::from_toml("mixed-shapes.toml", file).unwrap();
+        let world = World::new(&scene).unwrap();
+        let (mut hits, mut outside, mut free) = (0, 0, 0);
+        for bounds in [Bounds::None, Bounds::Clip, Bounds::Stop, Bounds::Reflect] {
+            for topology in [Topology::Global, Topology::Ring] {
+                let settings = Settings {
+                    bounds,
+                    topology,
+                    columns: 12,
+                    iterations: 30,
+                    velocity_limit: VelocityLimit::Fraction(2.0),
+                    ..Settings::default()
+                };
+                let columns = Columns::new(scene.start(), scene.goal(), settings.columns);
+                let swarm = run(Arch::new(), &settings, &world, &columns, 9);
+                let mut path = Vec::new();
+                for i in 0..swarm.particles {
+                    let heights: Vec<f64> = (0..swarm.dims).map(|d| swarm.x[d * swarm.stride + i]).collect();
+                    columns.write_path(&heights, &mut path);
+                    let cost: f64 = path
+                        .windows(2)
+                        .map(|w| {
+                            let hit = world.segment_clearance(w[0], w[1]) < 0.0;
+                            outside += usize::from(world.field_clearance(w[0]) < 0.0);
+                            hits += usize::from(hit);
+                            free += usize::from(!hit);
+                            (w[1] - w[0]).norm() * if hit { settings.penalty } else { 1.0 }
+                        })
+                        .sum();
+                    // Lengths in the world frame and in the local one differ by their rounding.
+                    assert!((swarm.cost[i] / cost - 1.0).abs() < 1e-12, "{bounds:?}, {topology:?}, particle {i}");
+                }
+            }
+        }
+        assert!(hits > 100 && outside > 50 && free > 100, "{hits} hits, {outside} outside, {free} free");
+    }
 }

@@ -105,22 +105,7 @@ impl Terrain {
         self.inside.clear();
         self.has_field = world.inner_field().is_some();
         if let Some(field) = world.inner_field() {
-            self.inside.extend((1..=m).map(|i| {
-                let on = frame.to_world(Point::new(columns.x(i), 0.0));
-                let up = frame.to_world(Point::new(columns.x(i), 1.0)) - on;
-                let (mut lo, mut hi) = (f64::NEG_INFINITY, f64::INFINITY);
-                for axis in 0..2 {
-                    let (to_min, to_max) = (field.min[axis] - on[axis], field.max[axis] - on[axis]);
-                    if up[axis] > 0.0 {
-                        (lo, hi) = (lo.max(to_min / up[axis]), hi.min(to_max / up[axis]));
-                    } else if up[axis] < 0.0 {
-                        (lo, hi) = (lo.max(to_max / up[axis]), hi.min(to_min / up[axis]));
-                    } else if to_min > 0.0 || to_max < 0.0 {
-                        (lo, hi) = (f64::INFINITY, f64::NEG_INFINITY);
-                    }
-                }
-                (lo, hi)
-            }));
+            self.inside.extend((1..=m).map(|i| columns.inside(i, field)));
         }
     }
 

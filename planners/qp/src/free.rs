@@ -22,6 +22,9 @@ use crate::smooth::{cost, mean_spacing};
 /// Shorter segments weigh like this share of the spacing: reweighting stays finite.
 const LEAST_LENGTH: f64 = 1e-3;
 
+/// Steps shrink slowly here: the descent ends at this many times the tolerance.
+const CREEP: f64 = 1e4;
+
 /// The convex pieces of all obstacles, in the world frame.
 struct Pieces {
     list: Vec<Piece>,
@@ -159,7 +162,7 @@ pub(crate) fn descend(settings: &Settings, reference: &[Point], session: &mut Se
             c < before && session.offer(&part, c)
         });
         session.report();
-        if !taken || before - session.cost <= settings.tolerance * before {
+        if !taken || before - session.cost <= CREEP * settings.tolerance * before {
             return Polish::Done;
         }
         path.clone_from(&session.path);

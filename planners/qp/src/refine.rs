@@ -30,11 +30,6 @@ impl Qp {
         settings.validate()?;
         Ok(Self { settings })
     }
-
-    /// The settings in force.
-    pub fn settings(&self) -> &Settings {
-        &self.settings
-    }
 }
 
 impl Refiner for Qp {
@@ -47,6 +42,10 @@ impl Refiner for Qp {
     /// [`PlanError::Unsupported`] when the path has a vertex that is not
     /// finite, or does not lead from start to goal.
     fn refine(&mut self, problem: &Problem<'_>, run: &mut Run<'_>, plan: &mut Plan) -> Result<Refinement, PlanError> {
+        if !run.in_time() {
+            plan.counters = run.spent;
+            return Ok(Refinement::BudgetSpent);
+        }
         if plan.path.is_empty() {
             plan.counters = run.spent;
             return Ok(Refinement::NotRepaired);
@@ -140,7 +139,7 @@ impl Task<'_> {
         let (settings, world) = (self.settings, self.problem.world);
         let columns = Columns::new(self.problem.start, self.problem.goal, self.count());
         let strip = Strip::new(world, columns, self.problem.start, self.problem.goal);
-        let classes = self.classes(&strip);
+        let Some(classes) = self.classes(&strip, session) else { return Polish::Stopped };
         let smooth = settings.objective == Objective::Smooth;
         let mut kept_own = classes.iter().any(|c| c.own && c.bound.is_finite());
         let mut sampled = Vec::new();
@@ -169,13 +168,17 @@ impl Task<'_> {
         if session.found || (self.free && kept_own) { Polish::Done } else { Polish::Nothing }
     }
 
-    /// The distinct classes of the path and, if wanted, of the candidates, in the order to polish them.
-    fn classes(&self, strip: &Strip) -> Vec<Class> {
+    /// The distinct classes of the path and, if wanted, of the candidates, in the order to polish them;
+    /// `None` when time ran out.
+    fn classes(&self, strip: &Strip, session: &mut Session<'_, '_>) -> Option<Vec<Class>> {
         let swarm = self.settings.classes == Classes::Swarm;
         let candidates = self.plan.candidates.iter().filter(|p| swarm && check(self.problem, p).is_ok());
         let mut seen = BTreeSet::new();
         let mut classes = Vec::new();
         for (i, path) in std::iter::once(&self.plan.path[..]).chain(candidates).enumerate() {
+            if !session.in_time() {
+                return None;
+            }
             let Some((sides, member)) = strip.sides_of(self.problem.world, path) else { continue };
             if seen.insert(sides.clone()) {
                 let (bound, string) = strip.bound(&sides);
@@ -188,7 +191,7 @@ impl Task<'_> {
             let own = if smooth { b.own.cmp(&a.own) } else { std::cmp::Ordering::Equal };
             own.then(a.bound.total_cmp(&b.bound))
         });
-        classes
+        Some(classes)
     }
 
     /// The columns of the settings, else of the path, else 20.

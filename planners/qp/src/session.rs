@@ -26,6 +26,11 @@ impl<'a, 'r> Session<'a, 'r> {
         self.run.allows(1)
     }
 
+    /// Whether work between programmes may go on.
+    pub(crate) fn in_time(&mut self) -> bool {
+        self.run.in_time()
+    }
+
     /// Counts a solved programme: an iteration and an evaluation.
     pub(crate) fn count(&mut self) {
         self.run.spent.iterations += 1;

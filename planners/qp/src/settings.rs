@@ -27,9 +27,11 @@ pub struct Settings {
     pub w_smooth: f64,
     /// `smooth`: weight of ‖p − p₀‖², p₀ the path before refinement, ≥ 0, per scene unit. Default 0.
     pub w_reference: f64,
-    /// Most solves for one side class or one set of free vertices, 1 … 10 000. Default 100; about 8 are usual.
+    /// Most solves for one side class or one set of free vertices, 1 … 10 000. Default 100; on columns about 8
+    /// are usual, with free vertices 2 to 50.
     pub max_rounds: usize,
-    /// Relative change of the objective that counts as none, 1e-12 … 1e-2. Default 1e-9.
+    /// Relative change of the objective that counts as none, 1e-12 … 1e-2. Default 1e-9. With free vertices,
+    /// where steps shrink slowly, 10⁴ times this.
     pub tolerance: f64,
 }
 

@@ -37,6 +37,10 @@ impl Strip {
         let (frame, length, margin) = (columns.frame(), columns.frame().length(), world.slack());
         let mut pieces = Vec::new();
         for (index, obstacle) in world.obstacles().iter().enumerate() {
+            let extent = frame.aabb_of(obstacle).inflated(margin);
+            if extent.max.x <= 0.0 || extent.min.x >= length {
+                continue;
+            }
             let first = pieces.len();
             decompose(&frame.obstacle_to_local(obstacle), index, &mut pieces);
             let room = obstacle.point_clearance(start).min(obstacle.point_clearance(goal));
@@ -67,20 +71,7 @@ impl Strip {
     fn place_field(&mut self, world: &World, start: Point, goal: Point) {
         let Some(inner) = world.inner_field() else { return };
         let inner = inner.inflated(-world.slack().min(inner.depth_of(start)).min(inner.depth_of(goal)));
-        for i in 1..=self.columns.count() {
-            let x = self.columns.x(i);
-            let foot = self.columns.frame().to_world(Point::new(x, 0.0));
-            let up = self.columns.frame().to_world(Point::new(x, 1.0)) - foot;
-            let (mut lo, mut hi) = (f64::NEG_INFINITY, f64::INFINITY);
-            for k in 0..2 {
-                if up[k] != 0.0 {
-                    let (u, v) = ((inner.min[k] - foot[k]) / up[k], (inner.max[k] - foot[k]) / up[k]);
-                    lo = lo.max(u.min(v));
-                    hi = hi.min(u.max(v));
-                }
-            }
-            self.field.push((lo, hi));
-        }
+        self.field.extend((1..=self.columns.count()).map(|i| self.columns.inside(i, &inner)));
     }
 
     /// Gates: the columns that cross pieces, and the pieces' own middles.

@@ -86,7 +86,7 @@ fn observers_see_every_round_and_may_end_it() {
             let mut run = Run::new(1).with_observer(&mut watch);
             let outcome = Qp::new(twenty()).unwrap().refine(&problem, &mut run, &mut plan).unwrap();
             assert_eq!(outcome == Refinement::BudgetSpent, last == 2);
-            assert_eq!(free, world.path_free(&plan.path) && last == 2 || free, "free stays free");
+            assert!(!free || world.path_free(&plan.path), "free stays free");
             assert!(watch.costs.windows(2).all(|w| w[1] <= w[0]), "{:?}", watch.costs);
             assert!(watch.iterations.iter().enumerate().all(|(i, &n)| n == i as u64), "{:?}", watch.iterations);
         }

@@ -73,7 +73,14 @@ impl Planner for Tangent {
         let outcome = among_discs(solver, problem, 0.5 * slack, &mut Supervised { run, sketch });
         let status = match outcome {
             Outcome::Stopped => Status::BudgetSpent,
-            Outcome::Infeasible => Status::Infeasible,
+            // What is closed by less than ε is open to the judge: no proof then.
+            Outcome::Infeasible => {
+                match among_discs(solver, problem, problem.world.epsilon(), &mut Supervised { run, sketch }) {
+                    Outcome::Infeasible => Status::Infeasible,
+                    Outcome::Stopped => Status::BudgetSpent,
+                    Outcome::Found { .. } => Status::NotFound,
+                }
+            }
             Outcome::Found { length } => {
                 let obstruction = write_path(solver, problem, slack, settings.excess, &mut plan.path);
                 plan.cost = length;
