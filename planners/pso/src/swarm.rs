@@ -1,5 +1,6 @@
 //! The swarm's state, its bests, and the order of an iteration.
 
+use aligned_vec::{AVec, ConstAlign};
 use env_model::{Columns, World};
 use pulp::Arch;
 
@@ -8,9 +9,12 @@ use crate::pass::{KeepBetter, Motion, Pass};
 use crate::settings::{RandomNumbers, Settings, Topology};
 use crate::terrain::Terrain;
 
+/// Numbers aligned to the widest vectors: one that straddles two cache lines costs two accesses.
+pub type Lane = AVec<f64, ConstAlign<64>>;
+
 /// Positions, velocities and bests. Matrices are m rows (dimensions) of
 /// `stride` lanes (particles).
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct Swarm {
     /// Real particles.
     pub particles: usize,
@@ -19,13 +23,13 @@ pub struct Swarm {
     /// Dimensions m.
     pub dims: usize,
     /// Heights.
-    pub x: Vec<f64>,
+    pub x: Lane,
     /// Velocities.
-    pub v: Vec<f64>,
+    pub v: Lane,
     /// Personal bests.
-    pub best: Vec<f64>,
+    pub best: Lane,
     /// Costs of the personal bests.
-    pub best_cost: Vec<f64>,
+    pub best_cost: Lane,
     /// Global best heights.
     pub global: Vec<f64>,
     /// Their cost.
@@ -33,12 +37,35 @@ pub struct Swarm {
     /// Lanes whose personal best improved in the last pass.
     pub improved: Vec<bool>,
     /// Social attractors of a ring topology, laid out like `x`.
-    pub social: Vec<f64>,
+    pub social: Lane,
     /// Costs of the last pass.
-    pub cost: Vec<f64>,
+    pub cost: Lane,
     /// Random numbers of the next pass, laid out like `x`.
-    pub random: [Vec<f64>; 2],
+    pub random: [Lane; 2],
     rng: Lanes,
+}
+
+impl Default for Swarm {
+    fn default() -> Self {
+        // `ConstAlign` knows the alignment; the argument is a formality.
+        let lane = || Lane::new(0);
+        Self {
+            particles: 0,
+            stride: 0,
+            dims: 0,
+            x: lane(),
+            v: lane(),
+            best: lane(),
+            best_cost: lane(),
+            global: Vec::new(),
+            global_cost: f64::INFINITY,
+            improved: Vec::new(),
+            social: lane(),
+            cost: lane(),
+            random: [lane(), lane()],
+            rng: Lanes::default(),
+        }
+    }
 }
 
 /// What stays the same during a run.
@@ -81,7 +108,7 @@ impl Swarm {
         self.rng.seed(seed, self.stride);
         self.rng.uniform(&mut self.x);
         let half_width = ground.columns.half_width();
-        for x in &mut self.x {
+        for x in self.x.iter_mut() {
             *x = (2.0 * *x - 1.0) * half_width;
         }
         self.pass(ground, None);
