@@ -12,6 +12,7 @@ pub mod bvh;
 pub mod frame;
 pub mod generate;
 pub mod geometry;
+pub mod grid;
 pub mod inflated;
 pub mod scene;
 pub mod source;
@@ -22,6 +23,7 @@ mod scene_file;
 
 pub use aabb::Aabb;
 pub use frame::{Columns, LocalFrame};
+pub use grid::CellGrid;
 pub use inflated::{Core, Inflated};
 pub use polygon::{Polygon, PolygonError};
 pub use scene::{Obstacle, Scene, SceneError, Shape};

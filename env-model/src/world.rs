@@ -10,6 +10,7 @@ use crate::{Aabb, Inflated, Point, Scene, SceneError};
 #[derive(Debug, Clone)]
 pub struct World {
     obstacles: Vec<Inflated>,
+    labels: Vec<Option<String>>,
     bvh: Bvh,
     /// Where the robot's centre may be.
     inner_field: Option<Aabb>,
@@ -42,6 +43,7 @@ impl World {
         Ok(Self {
             bvh: Bvh::build(&boxes),
             obstacles,
+            labels: scene.obstacles.iter().map(|o| o.label.clone()).collect(),
             inner_field: field.map(|f| f.inflated(-scene.robot_radius)),
             aabb: scene.aabb(),
             epsilon,
@@ -51,6 +53,11 @@ impl World {
     /// The inflated obstacles, in the scene's order.
     pub fn obstacles(&self) -> &[Inflated] {
         &self.obstacles
+    }
+
+    /// What the scene calls an obstacle, e.g. `"opponent 3"`.
+    pub fn label(&self, obstacle: usize) -> Option<&str> {
+        self.labels[obstacle].as_deref()
     }
 
     /// The scene's tolerance ε, in scene units: see [`Scene::epsilon`].

@@ -48,6 +48,25 @@ pub enum PlanError {
         /// Their y.
         y: f64,
     },
+    /// Start or goal has no free cell in straight reach.
+    #[error(
+        "{key} = {value}: the grid is coarser than the gaps: {end} ({x:.3}, {y:.3}) sees no free cell of side {size:.4} \
+        within three cells; expected a finer grid"
+    )]
+    GridTooCoarse {
+        /// The setting that decides the cells' size.
+        key: &'static str,
+        /// Its value.
+        value: usize,
+        /// The cells' side, in scene units.
+        size: f64,
+        /// "start" or "goal".
+        end: &'static str,
+        /// Its x.
+        x: f64,
+        /// Its y.
+        y: f64,
+    },
     /// The planner cannot treat this kind of world.
     #[error("{0}")]
     Unsupported(String),

@@ -17,7 +17,9 @@ pub mod seed;
 
 pub use budget::Budget;
 pub use error::{PlanError, SettingError};
-pub use observer::{Detail, Frame, Observer, SwarmView, View};
+pub use observer::{
+    CellState, CellsView, Detail, ForcesView, Frame, Observer, PopulationView, SwarmView, TreeView, View,
+};
 pub use plan::{Candidates, Counters, Plan};
 pub use planner::{Planner, Refinement, Refiner, Status};
 pub use problem::Problem;

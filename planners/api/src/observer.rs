@@ -2,7 +2,9 @@
 
 use std::ops::ControlFlow;
 
-use env_model::{Columns, Point};
+use env_model::{CellGrid, Columns, Point, Vector};
+
+use crate::Candidates;
 
 /// How much an observer wants to see.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -62,6 +64,81 @@ pub enum View<'a> {
     Path(&'a [Point]),
     /// A particle swarm in the column model.
     Swarm(SwarmView<'a>),
+    /// A search, an activity or a trail on cells.
+    Cells(CellsView<'a>),
+    /// Trees of random samples.
+    Trees(&'a [TreeView<'a>]),
+    /// A population of candidate paths.
+    Population(PopulationView<'a>),
+    /// A field of forces and the way that the robot took through it.
+    Forces(ForcesView<'a>),
+}
+
+/// What a planner on a cell grid knows. Slices over cells hold one entry a
+/// cell, in the grid's numbering, or are empty where the planner has no such thing.
+#[derive(Debug, Clone, Copy)]
+pub struct CellsView<'a> {
+    /// The grid.
+    pub grid: &'a CellGrid,
+    /// Cells that cannot be entered.
+    pub blocked: &'a [bool],
+    /// What the search has done with each cell.
+    pub states: &'a [CellState],
+    /// A number for each cell: risk, activity, pheromone; drawn as heat.
+    pub values: &'a [f64],
+    /// What `values` are: `"risk"`, `"activity"`, `"pheromone"`; a key for translations.
+    pub quantity: &'static str,
+    /// Borders between regions, as segments in scene units.
+    pub borders: &'a [(Point, Point)],
+    /// The best path so far; empty without one.
+    pub path: &'a [Point],
+}
+
+/// What a search has done with a cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum CellState {
+    /// Never reached, or outside the search space.
+    #[default]
+    Untouched,
+    /// Reached, waiting to be expanded.
+    Open,
+    /// Expanded.
+    Closed,
+}
+
+/// A tree: node i hangs on node `parents[i]`; a root is its own parent.
+#[derive(Debug, Clone, Copy)]
+pub struct TreeView<'a> {
+    /// The nodes, in scene units.
+    pub nodes: &'a [Point],
+    /// Their parents, as indices into `nodes`.
+    pub parents: &'a [u32],
+}
+
+/// A population of n individuals.
+#[derive(Debug, Clone, Copy)]
+pub struct PopulationView<'a> {
+    /// The paths that they stand for, n; they may collide.
+    pub paths: &'a Candidates,
+    /// Their fitness, n; larger is better.
+    pub fitness: &'a [f64],
+    /// The cells that the chromosomes number; `None` for other encodings.
+    pub grid: Option<&'a CellGrid>,
+    /// The best path so far.
+    pub best: &'a [Point],
+}
+
+/// A force field, sampled for observers, and the robot's way in it.
+#[derive(Debug, Clone, Copy)]
+pub struct ForcesView<'a> {
+    /// Where the field is sampled: the cells' centres.
+    pub grid: &'a CellGrid,
+    /// The force at each cell's centre, zero inside obstacles.
+    pub forces: &'a [Vector],
+    /// Where the robot has been, ends included.
+    pub trail: &'a [Point],
+    /// Where it got stuck, if it did.
+    pub stuck: Option<Point>,
 }
 
 /// A swarm of n particles with m heights each, in the local frame of `columns`.

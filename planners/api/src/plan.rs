@@ -22,6 +22,9 @@ pub struct Plan {
     pub cost: f64,
     /// Work done.
     pub counters: Counters,
+    /// Named parts of the planner's own objective, e.g. `("length", L)` and
+    /// `("risk", W)`; empty where the cost has no parts.
+    pub terms: Vec<(&'static str, f64)>,
     /// Other candidate paths, which refinement may use; they may collide.
     pub candidates: Candidates,
 }
@@ -35,7 +38,13 @@ impl Default for Plan {
 impl Plan {
     /// A plan without path.
     pub fn new() -> Self {
-        Self { path: Vec::new(), cost: f64::INFINITY, counters: Counters::default(), candidates: Candidates::default() }
+        Self {
+            path: Vec::new(),
+            cost: f64::INFINITY,
+            counters: Counters::default(),
+            terms: Vec::new(),
+            candidates: Candidates::default(),
+        }
     }
 
     /// Forgets everything but the buffers.
@@ -43,6 +52,7 @@ impl Plan {
         self.path.clear();
         self.cost = f64::INFINITY;
         self.counters = Counters::default();
+        self.terms.clear();
         self.candidates.clear();
     }
 }

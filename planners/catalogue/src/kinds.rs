@@ -1,11 +1,12 @@
 //! The list of planners.
 
-use planner_api::Planner;
-use planner_baseline::{RandomSearch, RandomSearchSettings, StraightLine, StraightLineSettings};
+use planner_api::{Planner, SettingError};
+use planner_baseline::{RandomSearch, StraightLine, StraightLineSettings};
 use planner_pso::Pso;
 use planner_qp::{Classes, Qp};
 use planner_tangent::Tangent;
 use serde::Serialize;
+use serde::de::DeserializeOwned;
 use toml::Table;
 
 use crate::Refined;
@@ -49,11 +50,7 @@ pub fn kinds() -> &'static [Kind] {
             name: "random-search",
             summary: "The best of uniform random polylines on the columns of the 2012 paper",
             source: "baseline",
-            make: |settings| {
-                let settings: RandomSearchSettings = settings.parse()?;
-                let planner = RandomSearch::new(settings.clone())?;
-                Ok((Box::new(planner), table(&settings)))
-            },
+            make: |settings| plain(settings, RandomSearch::new),
         },
         Kind {
             name: "pso",
@@ -76,11 +73,7 @@ pub fn kinds() -> &'static [Kind] {
             name: "tangent",
             summary: "The exact shortest path among discs",
             source: "tangent visibility graph, after arXiv:1103.3911",
-            make: |settings| {
-                let settings: planner_tangent::Settings = settings.parse()?;
-                let planner = Tangent::new(settings)?;
-                Ok((Box::new(planner), table(&settings)))
-            },
+            make: |settings| plain(settings, Tangent::new),
         },
     ];
     KINDS
@@ -107,6 +100,16 @@ fn pso_qp(mut settings: Settings<'_>) -> Result<(Box<dyn Planner>, Table), Build
     }
     resolved.insert("qp".into(), qp.into());
     Ok((Box::new(Refined::new(Box::new(swarm), vec![Box::new(refiner)])), resolved))
+}
+
+/// The planner that `new` makes of validated settings, and those settings.
+fn plain<S: DeserializeOwned + Serialize + Clone, P: Planner + 'static>(
+    settings: Settings<'_>,
+    new: impl FnOnce(S) -> Result<P, SettingError>,
+) -> Result<(Box<dyn Planner>, Table), BuildError> {
+    let settings: S = settings.parse()?;
+    let planner = new(settings.clone())?;
+    Ok((Box::new(planner), table(&settings)))
 }
 
 /// Validated settings as TOML.

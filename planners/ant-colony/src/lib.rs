@@ -1,0 +1,1 @@
+//! Ant colony on a cell grid.

@@ -1,0 +1,1 @@
+//! A*, Dijkstra and Theta* on a cell grid.

@@ -1,0 +1,1 @@
+//! A* over influence regions and risk (Wang & Zhu 2018).

@@ -1,0 +1,1 @@
+//! Bio-inspired shunting neural network.
