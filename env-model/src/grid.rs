@@ -90,7 +90,10 @@ impl CellGrid {
 
     /// The middle of a cell.
     pub fn centre(&self, cell: usize) -> Point {
-        let (column, row) = self.position(cell);
+        self.middle(self.position(cell))
+    }
+
+    fn middle(&self, (column, row): (usize, usize)) -> Point {
         self.origin + Vector::new((column as f64 + 0.5) * self.size, (row as f64 + 0.5) * self.size)
     }
 
@@ -102,8 +105,12 @@ impl CellGrid {
     }
 
     /// The cell one move away; `None` off the grid.
-    pub fn step(&self, cell: usize, (dx, dy): (isize, isize)) -> Option<usize> {
-        let (column, row) = self.position(cell);
+    pub fn step(&self, cell: usize, by: (isize, isize)) -> Option<usize> {
+        self.offset(self.position(cell), by)
+    }
+
+    /// The cell `(dx, dy)` away from the cell in (column, row); `None` off the grid.
+    fn offset(&self, (column, row): (usize, usize), (dx, dy): (isize, isize)) -> Option<usize> {
         let column = column.checked_add_signed(dx).filter(|c| *c < self.columns)?;
         let row = row.checked_add_signed(dy).filter(|r| *r < self.rows)?;
         Some(self.cell(column, row))
@@ -113,12 +120,14 @@ impl CellGrid {
     /// may lead to: not blocked, and not cutting the corner of a blocked cell.
     /// The order is that of [`MOVES`].
     pub fn for_each_move(&self, blocked: &[bool], from: usize, mut visit: impl FnMut(usize, bool)) {
-        let free = |cell: Option<usize>| cell.filter(|c| !blocked[*c]);
-        for (dx, dy) in MOVES {
-            let diagonal = dx != 0 && dy != 0;
-            let Some(to) = free(self.step(from, (dx, dy))) else { continue };
-            if !diagonal || (free(self.step(from, (dx, 0))).is_some() && free(self.step(from, (0, dy))).is_some()) {
-                visit(to, diagonal);
+        let at = self.position(from);
+        let free = MOVES.map(|by| self.offset(at, by).filter(|cell| !blocked[*cell]));
+        for (k, to) in free.iter().enumerate() {
+            let diagonal = k % 2 == 1;
+            if let Some(to) = to
+                && (!diagonal || (free[k - 1].is_some() && free[(k + 1) % 8].is_some()))
+            {
+                visit(*to, diagonal);
             }
         }
     }
@@ -138,8 +147,10 @@ impl CellGrid {
         blocked.clear();
         blocked.resize(self.len(), false);
         if let Some(field) = world.inner_field() {
-            for (cell, blocked) in blocked.iter_mut().enumerate() {
-                *blocked = field.depth_of(self.centre(cell)) < -world.slack();
+            for (row, cells) in blocked.chunks_exact_mut(self.columns).enumerate() {
+                for (column, blocked) in cells.iter_mut().enumerate() {
+                    *blocked = field.depth_of(self.middle((column, row))) < -world.slack();
+                }
             }
         }
         let mut tests = 0;
@@ -200,18 +211,22 @@ impl CellGrid {
 /// Whether the inflated obstacle, an open set, reaches deeper than `slack` into the square.
 fn touches(obstacle: &Inflated, square: &Aabb, slack: f64) -> bool {
     let reach = obstacle.radius - slack;
+    // The square's middle decides for all but the squares along the border.
+    let middle = square.centre();
+    let far = || obstacle.point_clearance(middle) > 0.5 * square.diagonal();
     match &obstacle.core {
         Core::Point(c) => square.distance_squared(&Aabb { min: *c, max: *c }) < reach * reach && reach > 0.0,
-        Core::Segment(a, b) => segment_distance(square, *a, *b) < reach,
+        Core::Segment(a, b) => !far() && segment_distance(square, *a, *b) < reach,
         Core::Polygon(polygon) => {
-            polygon.contains(square.centre())
-                || if reach > 0.0 {
-                    polygon.sides().any(|(a, b)| segment_distance(square, a, b) < reach)
-                } else {
-                    // A point robot: sharing a border is not touching.
-                    let inner = square.inflated(reach);
-                    polygon.sides().any(|(a, b)| segment_distance(&inner, a, b) == 0.0)
-                }
+            polygon.contains(middle)
+                || !far()
+                    && if reach > 0.0 {
+                        polygon.sides().any(|(a, b)| segment_distance(square, a, b) < reach)
+                    } else {
+                        // A point robot: sharing a border is not touching.
+                        let inner = square.inflated(reach);
+                        polygon.sides().any(|(a, b)| segment_distance(&inner, a, b) == 0.0)
+                    }
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use planner_api::{Planner, SettingError};
 use planner_baseline::{RandomSearch, StraightLine, StraightLineSettings};
+use planner_grid_search::GridSearch;
 use planner_pso::Pso;
 use planner_qp::{Classes, Qp};
 use planner_tangent::Tangent;
@@ -74,6 +75,24 @@ pub fn kinds() -> &'static [Kind] {
             summary: "The exact shortest path among discs",
             source: "tangent visibility graph, after arXiv:1103.3911",
             make: |settings| plain(settings, Tangent::new),
+        },
+        Kind {
+            name: "astar",
+            summary: "A* on a grid of cells with eight moves and no corner cutting",
+            source: "Hart, Nilsson & Raphael 1968, IEEE Trans. Systems Science and Cybernetics 4(2), 100-107",
+            make: |settings| plain(settings, GridSearch::astar),
+        },
+        Kind {
+            name: "dijkstra",
+            summary: "Dijkstra's algorithm on the grid of astar",
+            source: "Dijkstra 1959, Numerische Mathematik 1, 269-271",
+            make: |settings| plain(settings, GridSearch::dijkstra),
+        },
+        Kind {
+            name: "theta-star",
+            summary: "Basic Theta*: A* on the grid whose path may take any angle",
+            source: "Nash, Daniel, Koenig & Felner 2007, AAAI-07, 1177-1183",
+            make: |settings| plain(settings, GridSearch::theta_star),
         },
     ];
     KINDS
