@@ -13,9 +13,10 @@ pub struct Network {
     /// [Iᵢ]⁺ and [Iᵢ]⁻.
     excitation: Vec<f64>,
     inhibition: Vec<f64>,
-    /// Links of neuron i: `links[first[i]..first[i + 1]]`, as (j, wᵢⱼ).
-    first: Vec<u32>,
-    links: Vec<(u32, f64)>,
+    /// The neighbours of each neuron, four straight, then four diagonal ones.
+    /// Where one is missing stands the number of a neuron beyond the last, always at rest.
+    links: Vec<[u32; 8]>,
+    /// x of every neuron and of that one.
     activity: Vec<f64>,
 }
 
@@ -30,20 +31,21 @@ impl Network {
         let inhibition = |blocked: &bool| if *blocked { settings.input } else { 0.0 };
         self.inhibition.clear();
         self.inhibition.extend(self.blocked.iter().map(inhibition));
-        for zeroed in [&mut self.excitation, &mut self.activity] {
-            zeroed.clear();
-            zeroed.resize(grid.len(), 0.0);
-        }
+        self.excitation.clear();
+        self.excitation.resize(grid.len(), 0.0);
+        self.activity.clear();
+        self.activity.resize(grid.len() + 1, 0.0);
         self.links.clear();
-        self.first.clear();
-        self.first.push(0);
-        for cell in 0..grid.len() {
+        self.links.extend((0..grid.len()).map(|cell| {
+            let mut links = [grid.len() as u32; 8];
+            let mut ends = [0, 4];
             grid.for_each_move(&self.blocked, cell, |to, diagonal| {
-                let weight = settings.coupling * if diagonal { FRAC_1_SQRT_2 } else { 1.0 };
-                self.links.push((to as u32, weight));
+                let end = &mut ends[usize::from(diagonal)];
+                links[*end] = to as u32;
+                *end += 1;
             });
-            self.first.push(self.links.len() as u32);
-        }
+            links
+        }));
         tests
     }
 
@@ -59,17 +61,17 @@ impl Network {
 
     /// x of every neuron, in the grid's numbering.
     pub fn activity(&self) -> &[f64] {
-        &self.activity
+        &self.activity[..self.len()]
     }
 
     /// Number of neurons.
     pub fn len(&self) -> usize {
-        self.activity.len()
+        self.links.len()
     }
 
     /// Whether there is no neuron.
     pub fn is_empty(&self) -> bool {
-        self.activity.is_empty()
+        self.links.is_empty()
     }
 
     /// Sets every neuron once to the equilibrium of its equation,
@@ -83,10 +85,13 @@ impl Network {
         let mut largest = 0.0_f64;
         for k in 0..n {
             let i = if forward { k } else { n - 1 - k };
-            let links = &self.links[self.first[i] as usize..self.first[i + 1] as usize];
             // Links lead to free neurons, whose activity is never negative: no [x]⁺ is needed.
-            let input: f64 = links.iter().map(|(j, weight)| weight * self.activity[*j as usize]).sum();
-            let (s, inhibition) = (self.excitation[i] + input, self.inhibition[i]);
+            let links = &self.links[i];
+            let x = |k: usize| self.activity[links[k] as usize];
+            let straight = (x(0) + x(1)) + (x(2) + x(3));
+            let diagonal = (x(4) + x(5)) + (x(6) + x(7));
+            let s = self.excitation[i] + settings.coupling * (straight + FRAC_1_SQRT_2 * diagonal);
+            let inhibition = self.inhibition[i];
             let mut x = (settings.upper * s - settings.lower * inhibition) / (settings.decay + s + inhibition);
             // Subnormal numbers are slow and too coarse to be compared.
             if x.abs() < f64::MIN_POSITIVE {
@@ -101,12 +106,12 @@ impl Network {
     }
 
     /// The neighbour that a climb goes to from `cell`: that of the highest
-    /// activity, the first in the order of moves among equals; `None` on a local maximum.
+    /// activity (among equals straight before diagonal, then anticlockwise from the
+    /// right); `None` on a local maximum.
     pub fn uphill(&self, cell: usize) -> Option<usize> {
-        let links = &self.links[self.first[cell] as usize..self.first[cell + 1] as usize];
         let mut best = (self.activity[cell], None);
-        for (j, _) in links {
-            let j = *j as usize;
+        // The neuron at rest that fills gaps is never higher than a free one.
+        for j in self.links[cell].map(|j| j as usize) {
             if self.activity[j] > best.0 {
                 best = (self.activity[j], Some(j));
             }
