@@ -3,6 +3,8 @@
 use planner_api::{Planner, SettingError};
 use planner_baseline::{RandomSearch, StraightLine, StraightLineSettings};
 use planner_grid_search::GridSearch;
+use planner_neural::Neural;
+use planner_potential_field::PotentialField;
 use planner_pso::Pso;
 use planner_qp::{Classes, Qp};
 use planner_tangent::Tangent;
@@ -93,6 +95,17 @@ pub fn kinds() -> &'static [Kind] {
             summary: "Basic Theta*: A* on the grid whose path may take any angle",
             source: "Nash, Daniel, Koenig & Felner 2007, AAAI-07, 1177-1183",
             make: |settings| plain(settings, GridSearch::theta_star),
+            name: "potential-field",
+            summary: "Descent in an artificial potential field; sticks in local minima and says where",
+            source: "Khatib 1986, IJRR 5(1), 90-98; Ge & Cui 2000, IEEE T-RA 16(5), 615-620",
+            make: |settings| plain(settings, PotentialField::new),
+        },
+        Kind {
+            name: "neural",
+            summary: "Steepest ascent on the activity of a shunting neural network on a cell grid",
+            source: "Glasius, Komoda & Gielen 1995, Neural Networks 8(1), 125-133; \
+                     Yang & Meng 2001, IEEE T-SMC B 31(3), 302-318",
+            make: |settings| plain(settings, Neural::new),
         },
     ];
     KINDS
