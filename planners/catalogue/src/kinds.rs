@@ -7,6 +7,7 @@ use planner_neural::Neural;
 use planner_potential_field::PotentialField;
 use planner_pso::Pso;
 use planner_qp::{Classes, Qp};
+use planner_rrt::{RrtConnect, RrtStar};
 use planner_tangent::Tangent;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -106,6 +107,22 @@ pub fn kinds() -> &'static [Kind] {
             source: "Glasius, Komoda & Gielen 1995, Neural Networks 8(1), 125-133; \
                      Yang & Meng 2001, IEEE T-SMC B 31(3), 302-318",
             make: |settings| plain(settings, Neural::new),
+            name: "rrt-connect",
+            summary: "Two random trees from start and goal that grow towards each other; the first path",
+            source: "Kuffner & LaValle 2000, ICRA, 995-1001",
+            make: |settings| plain(settings, RrtConnect::new),
+        },
+        Kind {
+            name: "rrt-star",
+            summary: "A random tree, rewired towards the shortest ways from the start",
+            source: "Karaman & Frazzoli 2011, International Journal of Robotics Research 30(7), 846-894",
+            make: |settings| plain(settings, RrtStar::new),
+        },
+        Kind {
+            name: "informed-rrt-star",
+            summary: "RRT* that samples the ellipse in which a path may be shorter than the best one",
+            source: "Gammell, Srinivasa & Barfoot 2014, IROS, 2997-3004",
+            make: |settings| plain(settings, RrtStar::informed),
         },
     ];
     KINDS

@@ -1,1 +1,31 @@
-//! RRT-Connect, RRT*, Informed RRT*.
+//! Rapidly exploring random trees: RRT-Connect, RRT* and Informed RRT*.
+//!
+//! - [`RrtConnect`]: two trees, from start and goal, that grow towards each
+//!   other; ends with the first path (Kuffner & `LaValle` 2000).
+//! - [`RrtStar`]: one tree whose edges are rewired to shorten the ways from the
+//!   start; its best path converges to the optimum (Karaman & Frazzoli 2011).
+//!   Its informed form samples, once it has a path, only where a shorter one
+//!   may pass (Gammell, Srinivasa & Barfoot 2014).
+//!
+//! All are probabilistically complete: where a path with some room exists, the
+//! probability of missing it tends to 0 with the number of samples. Motions are
+//! tested exactly and whole, so the length of a step trades exploration against
+//! greed and has nothing to do with safety. Samples are uniform in the box where
+//! the robot's centre may be ([`env_model::World::extent`]).
+//!
+//! The first attempt of each planner is the straight motion from start to goal:
+//! where that is free, nothing is shorter and there is nothing to sample.
+
+mod connect;
+mod cost_tree;
+mod ellipse;
+mod nearest;
+mod rewire;
+mod sampler;
+mod settings;
+mod star;
+mod tree;
+
+pub use connect::RrtConnect;
+pub use settings::{ConnectSettings, StarSettings};
+pub use star::RrtStar;
