@@ -2,6 +2,7 @@
 
 use planner_api::{Planner, SettingError};
 use planner_baseline::{RandomSearch, StraightLine, StraightLineSettings};
+use planner_genetic::{GridGa, VertexGa};
 use planner_pso::Pso;
 use planner_qp::{Classes, Qp};
 use planner_tangent::Tangent;
@@ -74,6 +75,18 @@ pub fn kinds() -> &'static [Kind] {
             summary: "The exact shortest path among discs",
             source: "tangent visibility graph, after arXiv:1103.3911",
             make: |settings| plain(settings, Tangent::new),
+        },
+        Kind {
+            name: "grid-ga",
+            summary: "Genetic algorithm on lists of numbered cells, with insertion, deletion and smoothing",
+            source: "Fang 2009, master's thesis, section 4.5",
+            make: |settings| plain(settings, GridGa::new),
+        },
+        Kind {
+            name: "vertex-ga",
+            summary: "Genetic algorithm on sequences of the obstacles' vertices",
+            source: "Fang 2009, master's thesis, section 4.4",
+            make: |settings| plain(settings, VertexGa::new),
         },
     ];
     KINDS
