@@ -5,6 +5,7 @@ use planner_baseline::{RandomSearch, StraightLine, StraightLineSettings};
 use planner_genetic::{GridGa, VertexGa};
 use planner_pso::Pso;
 use planner_qp::{Classes, Qp};
+use planner_quantum_ga::QuantumGa;
 use planner_tangent::Tangent;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -87,6 +88,12 @@ pub fn kinds() -> &'static [Kind] {
             summary: "Genetic algorithm on sequences of the obstacles' vertices",
             source: "Fang 2009, master's thesis, section 4.4",
             make: |settings| plain(settings, VertexGa::new),
+        },
+        Kind {
+            name: "quantum-ga",
+            summary: "Quantum-inspired evolution of the bits of heights on the columns of the 2012 paper",
+            source: "Han & Kim 2002, IEEE Trans. Evolutionary Computation 6(6), 580-593",
+            make: |settings| plain(settings, QuantumGa::new),
         },
     ];
     KINDS
