@@ -8,6 +8,10 @@ use planner_potential_field::PotentialField;
 use planner_pso::Pso;
 use planner_qp::{Classes, Qp};
 use planner_rrt::{RrtConnect, RrtStar};
+use planner_genetic::{GridGa, VertexGa};
+use planner_pso::Pso;
+use planner_qp::{Classes, Qp};
+use planner_quantum_ga::QuantumGa;
 use planner_tangent::Tangent;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -123,6 +127,22 @@ pub fn kinds() -> &'static [Kind] {
             summary: "RRT* that samples the ellipse in which a path may be shorter than the best one",
             source: "Gammell, Srinivasa & Barfoot 2014, IROS, 2997-3004",
             make: |settings| plain(settings, RrtStar::informed),
+            name: "grid-ga",
+            summary: "Genetic algorithm on lists of numbered cells, with insertion, deletion and smoothing",
+            source: "Fang 2009, master's thesis, section 4.5",
+            make: |settings| plain(settings, GridGa::new),
+        },
+        Kind {
+            name: "vertex-ga",
+            summary: "Genetic algorithm on sequences of the obstacles' vertices",
+            source: "Fang 2009, master's thesis, section 4.4",
+            make: |settings| plain(settings, VertexGa::new),
+        },
+        Kind {
+            name: "quantum-ga",
+            summary: "Quantum-inspired evolution of the bits of heights on the columns of the 2012 paper",
+            source: "Han & Kim 2002, IEEE Trans. Evolutionary Computation 6(6), 580-593",
+            make: |settings| plain(settings, QuantumGa::new),
         },
     ];
     KINDS
