@@ -202,7 +202,8 @@ mod tests {
         assert!(message("pso", "particles = -1").starts_with("-1: "));
         assert!(message("pso", "velocity_limit = \"some\"").contains("a fraction of H or \"none\""));
         assert!(message("pso", "velocity_limit = nan").contains("velocity_limit = NaN; expected a fraction of H"));
-        assert!(message("pso", "constriction = true\nc1 = 2.0").contains("beside constriction = true"));
+        assert!(message("pso", "rule = \"constriction\"\nc1 = 2.0").contains("beside rule = \"constriction\""));
+        assert!(message("pso", "rule = \"spso\"").contains("unknown variant `spso`, expected one of `inertia`"));
         assert!(message("pso", "refine = [\"sqp\"]").contains("unknown refiner \"sqp\"; expected \"qp\""));
         assert!(message("pso", "refine = \"qp\"").contains("expected a list of refiners"));
         assert!(message("pso", "refine = [{ kind = \"qp\", max_rounds = 0 }]").contains("max_rounds = 0; expected"));

@@ -62,7 +62,8 @@ pub fn kinds() -> &'static [Kind] {
         },
         Kind {
             name: "pso",
-            summary: "Particle swarm on perpendicular columns with a collision penalty",
+            summary: "Particle swarm on perpendicular columns with a collision penalty (rule = \"inertia\", the paper's, \
+                      \"constriction\", \"quantum\", \"spso-2011\" or \"comprehensive\")",
             source: "Lu & Sun 2012, Computer Technology and Development 22(7), 124-127",
             make: |settings| {
                 let settings = settings.parse::<planner_pso::Settings>()?.filled();

@@ -22,15 +22,21 @@ pub struct Lanes {
 }
 
 impl Lanes {
-    /// Seeds lane i with words 2i and 2i + 1 of the `SplitMix64` sequence of `seed`.
-    pub fn seed(&mut self, seed: u64, lanes: usize) {
-        let mut state = seed;
+    /// Seeds lane i with words 2i and 2i + 1 of the `SplitMix64` sequence that `state` has reached.
+    pub fn seed(&mut self, state: &mut u64, lanes: usize) {
         self.s0.clear();
         self.s1.clear();
         for _ in 0..lanes {
-            self.s0.push(splitmix64(&mut state));
-            self.s1.push(splitmix64(&mut state));
+            self.s0.push(splitmix64(state));
+            self.s1.push(splitmix64(state));
         }
+    }
+
+    /// The next number of the only lane, uniform on [0, 1).
+    pub fn one(&mut self) -> f64 {
+        let mut number = [0.0];
+        self.uniform(&mut number);
+        number[0]
     }
 
     /// Fills a matrix of rows of lanes with numbers uniform on [0, 1), 53 bits each.
@@ -108,7 +114,7 @@ mod tests {
     #[test]
     fn every_lane_is_the_reference_generator() {
         let mut lanes = Lanes::default();
-        lanes.seed(42, 16);
+        lanes.seed(&mut 42, 16);
         let mut references: Vec<Xoroshiro128PlusPlus> = (0..16)
             .map(|lane| {
                 let state = [lanes.s0[lane].to_le_bytes(), lanes.s1[lane].to_le_bytes()].concat();
@@ -131,7 +137,7 @@ mod tests {
     #[test]
     fn numbers_lie_in_the_unit_interval_and_average_one_half() {
         let mut lanes = Lanes::default();
-        lanes.seed(7, 8);
+        lanes.seed(&mut 7, 8);
         let n = 100_000;
         let (mut first, mut second) = (vec![0.0; n], vec![0.0; n]);
         pulp::Arch::new().dispatch(UniformPairs { lanes: &mut lanes, rows: [&mut first, &mut second] });

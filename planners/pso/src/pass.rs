@@ -5,29 +5,12 @@
 
 use pulp::{Simd, WithSimd};
 
-use crate::settings::{Bounds, RandomNumbers, Topology};
+use crate::border::Border;
+use crate::choices::RandomNumbers;
+use crate::rules::Weights;
 use crate::swarm::{Ground, Swarm};
 
-/// The numbers of equation (1) in one iteration.
-#[derive(Clone, Copy)]
-pub struct Motion {
-    w: f64,
-    c1: f64,
-    c2: f64,
-    max_speed: f64,
-    half_width: f64,
-}
-
-impl Motion {
-    /// Those of iteration `t`, counted from 0.
-    pub fn of(ground: Ground<'_>, t: u64) -> Self {
-        let (settings, half_width) = (ground.settings, ground.columns.half_width());
-        let (c1, c2) = settings.weights();
-        Self { w: settings.inertia_at(t), c1, c2, max_speed: settings.max_speed(half_width), half_width }
-    }
-}
-
-/// Moves all particles (unless they have just been placed) and writes their costs.
+/// Moves all particles, by the rule of inertia if told to, and writes their costs.
 ///
 /// `OTHERS` tells whether there are capsules or polygons: their tests are calls,
 /// and a loop with calls in it cannot keep its vectors in registers.
@@ -36,8 +19,8 @@ pub struct Pass<'a, const OTHERS: bool> {
     pub swarm: &'a mut Swarm,
     /// What stays the same during a run.
     pub ground: Ground<'a>,
-    /// How to move.
-    pub motion: Option<Motion>,
+    /// How to move; `None`: they are where they should be.
+    pub motion: Option<(Weights, Border)>,
 }
 
 impl<const OTHERS: bool> WithSimd for Pass<'_, OTHERS> {
@@ -48,7 +31,7 @@ impl<const OTHERS: bool> WithSimd for Pass<'_, OTHERS> {
         let Self { swarm, ground, motion } = self;
         // In locals: the compiler then knows that no store changes them.
         let dims = swarm.dims;
-        let Swarm { x, v, best, global, social, cost, random, stride, .. } = swarm;
+        let Swarm { x, v, best, global, social, cost, random, stride, neighbours, .. } = swarm;
         let width = size_of::<S::f64s>() / size_of::<f64>();
         let vectors = *stride / width;
         let x = S::as_mut_simd_f64s(x).0;
@@ -61,8 +44,8 @@ impl<const OTHERS: bool> WithSimd for Pass<'_, OTHERS> {
 
         let splat = |value: f64| simd.splat_f64s(value);
         let (terrain, settings) = (ground.terrain, ground.settings);
-        let ring = settings.topology == Topology::Ring;
-        let per_particle = settings.random_numbers == RandomNumbers::PerParticle;
+        let local = !neighbours.leaders.is_empty();
+        let per_particle = settings.random_numbers.unwrap_or_default() == RandomNumbers::PerParticle;
         let zero = splat(0.0);
         let (dx, dx2) = (splat(terrain.dx), splat(terrain.dx * terrain.dx));
         let penalty = splat(settings.penalty);
@@ -76,11 +59,12 @@ impl<const OTHERS: bool> WithSimd for Pass<'_, OTHERS> {
                     zero
                 } else {
                     let at = j * vectors + c;
-                    if let Some(motion) = &motion {
+                    if let Some((weights, border)) = &motion {
                         let numbers = if per_particle { c } else { at };
-                        let attractor = if ring { social[at] } else { splat(global[j]) };
+                        let attractor = if local { social[at] } else { splat(global[j]) };
                         let random = (random1[numbers], random2[numbers]);
-                        (x[at], v[at]) = fly(simd, motion, settings.bounds, random, x[at], v[at], best[at], attractor);
+                        let v_at = weights.velocity(simd, random, (x[at], v[at]), (best[at], attractor));
+                        (x[at], v[at]) = border.advance(simd, x[at], v_at);
                     }
                     x[at]
                 };
@@ -161,41 +145,4 @@ fn lanes<S: Simd>(vector: &S::f64s) -> &[f64] {
 
 fn lanes_mut<S: Simd>(vector: &mut S::f64s) -> &mut [f64] {
     pulp::bytemuck::cast_slice_mut(std::slice::from_mut(vector))
-}
-
-/// Equations (1) and (2) of the paper, velocity limit and bounds: (new position, new velocity).
-#[inline(always)]
-#[allow(clippy::too_many_arguments, reason = "the terms of equation (1)")]
-fn fly<S: Simd>(
-    simd: S,
-    motion: &Motion,
-    bounds: Bounds,
-    (r1, r2): (S::f64s, S::f64s),
-    x: S::f64s,
-    v: S::f64s,
-    own: S::f64s,
-    social: S::f64s,
-) -> (S::f64s, S::f64s) {
-    let splat = |value: f64| simd.splat_f64s(value);
-    let clamp = |value, limit: f64| simd.max_f64s(simd.min_f64s(value, splat(limit)), splat(-limit));
-    let pull = |c: f64, r, to| simd.mul_f64s(simd.mul_f64s(splat(c), r), simd.sub_f64s(to, x));
-    let v = simd.add_f64s(
-        simd.add_f64s(simd.mul_f64s(splat(motion.w), v), pull(motion.c1, r1, own)),
-        pull(motion.c2, r2, social),
-    );
-    let v = clamp(v, motion.max_speed);
-    let flown = simd.add_f64s(x, v);
-    if bounds == Bounds::None {
-        return (flown, v);
-    }
-    let clipped = clamp(flown, motion.half_width);
-    let within = simd.equal_f64s(clipped, flown);
-    match bounds {
-        Bounds::None | Bounds::Clip => (clipped, v),
-        Bounds::Stop => (clipped, simd.select_f64s(within, v, splat(0.0))),
-        Bounds::Reflect => {
-            let mirrored = simd.sub_f64s(simd.add_f64s(clipped, clipped), flown);
-            (clamp(mirrored, motion.half_width), simd.select_f64s(within, v, simd.neg_f64s(v)))
-        }
-    }
 }

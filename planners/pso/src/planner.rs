@@ -5,13 +5,15 @@ use planner_api::{Detail, Plan, PlanError, Planner, Problem, Run, SettingError, 
 use pulp::Arch;
 
 use crate::Settings;
+use crate::rules::{UpdateRule, rule};
 use crate::sides::SideClasses;
 use crate::swarm::{Ground, Swarm};
 use crate::terrain::Terrain;
 
-/// Lu & Sun's swarm. Buffers are kept between calls.
+/// Lu & Sun's swarm, or one of its family. Buffers are kept between calls.
 pub struct Pso {
     settings: Settings,
+    rule: Box<dyn UpdateRule>,
     arch: Arch,
     swarm: Swarm,
     terrain: Terrain,
@@ -34,7 +36,9 @@ impl Pso {
     /// The setting that is out of range.
     pub fn new(settings: Settings) -> Result<Self, SettingError> {
         settings.validate()?;
+        let settings = settings.filled();
         Ok(Self {
+            rule: rule(&settings),
             settings,
             arch: Arch::new(),
             swarm: Swarm::default(),
@@ -75,23 +79,23 @@ impl Planner for Pso {
             plan.counters = run.spent;
             return Ok(Status::BudgetSpent);
         }
-        let Self { settings, arch, swarm, terrain, sides, rows } = self;
-        terrain.compile(problem.world, &columns, settings.bounds);
+        let Self { settings, rule, arch, swarm, terrain, sides, rows } = self;
+        terrain.compile(problem.world, &columns, settings.bounds.unwrap_or_default());
         sides.begin(settings.side_classes, terrain, &columns);
         let ground = Ground { arch: *arch, settings, world: problem.world, columns: &columns, terrain };
         let mut account = |swarm: &Swarm, run: &mut Run<'_>| {
-            run.spent.evaluations += particles;
-            run.spent.collision_checks += particles * (m as u64 + 1);
+            run.spent.evaluations += swarm.evaluated;
+            run.spent.collision_checks += swarm.evaluated * (m as u64 + 1);
             sides.collect(swarm);
             rows.report(swarm, &columns, run);
         };
-        swarm.initialise(ground, run.seed);
+        swarm.initialise(ground, rule.as_mut(), run.seed);
         account(swarm, run);
         for t in 0..settings.iterations {
             if !run.allows(particles) {
                 break;
             }
-            swarm.iterate(ground, t);
+            swarm.iterate(ground, rule.as_mut(), t);
             run.spent.iterations += 1;
             account(swarm, run);
         }

@@ -1,42 +1,74 @@
-//! The paper's numbers, and a setting for every gap it leaves.
+//! The paper's numbers, a setting for every gap it leaves, and the numbers of its family.
 
 use planner_api::SettingError;
 use serde::{Deserialize, Serialize};
 
+use crate::choices::{Bounds, NoLimit, RandomNumbers, Rule, Schedule, Topology, VelocityLimit};
+
 /// Settings of the swarm. Defaults are the paper's values and, where it is
-/// silent, the reading marked so.
+/// silent, the reading marked so; beside another `rule`, those of its authors.
+///
+/// | key | `inertia` | `constriction` | `quantum` | `spso-2011` | `comprehensive` |
+/// |---|---|---|---|---|---|
+/// | `c1`, `c2` | 2 | fixed | – | – | – |
+/// | `inertia` | 0.9 → 0.4 | fixed | – | 1/(2 ln 2) | 0.9 → 0.4 |
+/// | `c` | – | – | – | 1/2 + ln 2 | 1.49445 |
+/// | `alpha` | – | – | 1 → 0.5 | – | – |
+/// | `refresh_gap` | – | – | – | – | 7 |
+/// | `velocity_limit` | 0.5 | 0.5 | – | none | 0.4 |
+/// | `bounds` | stop | stop | stop | rebound | invisible |
+/// | `random_numbers` | per-dimension | per-dimension | – | – | – |
+/// | `topology` | global | global | global | random | – |
+///
+/// A key given beside a rule that has none (–) or fixes it is an error.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Settings {
+    /// How particles move. Paper: `"inertia"`.
+    pub rule: Rule,
     /// Particles M, 1 … 10 000. Paper: 20.
     pub particles: usize,
     /// Iterations T, 0 … 10⁷. Paper: 400. The initial swarm is evaluated as well.
     pub iterations: u64,
     /// Columns m, 1 … 10 000. Paper: dim = 22 with both fixed ends counted, so 20.
     pub columns: usize,
-    /// Weight of the personal best, ≥ 0. Paper: 2. Fixed by `constriction`.
+    /// Weight of the personal best, ≥ 0. Paper: 2.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub c1: Option<f64>,
-    /// Weight of the social best, ≥ 0. Paper: 2. Fixed by `constriction`.
+    /// Weight of the social best, ≥ 0. Paper: 2.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub c2: Option<f64>,
-    /// Inertia w, linear from the first to the last iteration. Paper: 0.9 → 0.4.
-    /// A single number is a constant inertia. Fixed by `constriction`.
+    /// Inertia w ≥ 0, linear from the first to the last iteration, or constant. Paper: 0.9 → 0.4.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub inertia: Option<Inertia>,
-    /// Clerc & Kennedy (2002) with φ = 4.1 instead of inertia: w = χ = 0.7298,
-    /// c1 = c2 = 1.49618. Default false.
-    pub constriction: bool,
+    pub inertia: Option<Schedule>,
+    /// The weight c of a rule with a single one, ≥ 0: how far beyond the bests
+    /// the standard of 2011 looks (1/2 + ln 2), the pull of an exemplar in
+    /// comprehensive learning (1.49445).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub c: Option<f64>,
+    /// Contraction–expansion coefficient α ≥ 0 of quantum-behaved particles,
+    /// linear or constant. Sun et al. 2004: 1 → 0.5.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub alpha: Option<Schedule>,
+    /// Evaluations without improvement before a particle gets new exemplars in
+    /// comprehensive learning, 1 … 10⁷. Liang et al. 2006: 7.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub refresh_gap: Option<u64>,
     /// Largest speed a dimension, as a fraction of H = L/4 an iteration; or `"none"`.
     /// The paper says "limited to a range" without number; default 0.5.
-    pub velocity_limit: VelocityLimit,
+    /// Comprehensive learning: 0.2 of the range 2 H, so 0.4.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub velocity_limit: Option<VelocityLimit>,
     /// What happens at |y'| = H. Not in the paper; default `"stop"`.
-    pub bounds: Bounds,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub bounds: Option<Bounds>,
     /// Fresh random numbers for each dimension, or one pair a particle and
     /// iteration. The paper's formula allows both; default `"per-dimension"`.
-    pub random_numbers: RandomNumbers,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub random_numbers: Option<RandomNumbers>,
     /// Whose best attracts a particle. Paper: `"global"`.
-    pub topology: Topology,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub topology: Option<Topology>,
     /// λ of a colliding segment, ≥ 1. Paper: 1000.
     pub penalty: f64,
     /// How many side classes (ways past the obstacles) of personal bests to
@@ -45,100 +77,72 @@ pub struct Settings {
     pub side_classes: usize,
 }
 
-/// Inertia weight over the iterations.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(untagged, expecting = "a number or { from = …, to = … }")]
-pub enum Inertia {
-    /// The same throughout.
-    Constant(f64),
-    /// Linear in the iteration: w = from + (to − from)·t/(T − 1), t = 0 … T − 1.
-    Linear {
-        /// At the first iteration.
-        from: f64,
-        /// At the last.
-        to: f64,
-    },
-}
-
-/// Largest speed a dimension.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(untagged, expecting = "a fraction of H or \"none\"")]
-pub enum VelocityLimit {
-    /// A fraction of H an iteration.
-    Fraction(f64),
-    /// A word: only `"none"`.
-    Word(NoLimit),
-}
-
-/// The word for no limit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum NoLimit {
-    /// No limit.
-    None,
-}
-
-/// What happens to a particle at the border of the search rectangle.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Bounds {
-    /// It flies on.
-    None,
-    /// Its position is clipped, its velocity kept.
-    Clip,
-    /// Its position is clipped, that component of its velocity zeroed.
-    Stop,
-    /// It bounces: position mirrored (then clipped), that component negated.
-    Reflect,
-}
-
-/// How often random numbers are drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum RandomNumbers {
-    /// A pair for every dimension of every particle.
-    PerDimension,
-    /// A pair for every particle.
-    PerParticle,
-}
-
-/// Whose best attracts a particle.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Topology {
-    /// The best of the whole swarm.
-    Global,
-    /// The best among itself and its two neighbours on a ring.
-    Ring,
-}
-
 impl Default for Settings {
     fn default() -> Self {
         Self {
+            rule: Rule::Inertia,
             particles: 20,
             iterations: 400,
             columns: 20,
             c1: None,
             c2: None,
             inertia: None,
-            constriction: false,
-            velocity_limit: VelocityLimit::Fraction(0.5),
-            bounds: Bounds::Stop,
-            random_numbers: RandomNumbers::PerDimension,
-            topology: Topology::Global,
+            c: None,
+            alpha: None,
+            refresh_gap: None,
+            velocity_limit: None,
+            bounds: None,
+            random_numbers: None,
+            topology: None,
             penalty: 1000.0,
             side_classes: 0,
         }
     }
 }
 
+/// The table of [`Settings`]: every key that `rule` reads, with its default.
+fn defaults(rule: Rule) -> Settings {
+    let none = Settings { rule, ..Settings::default() };
+    let linear = |from, to| Some(Schedule::Linear { from, to });
+    let classic = Settings {
+        velocity_limit: Some(VelocityLimit::Fraction(0.5)),
+        bounds: Some(Bounds::Stop),
+        random_numbers: Some(RandomNumbers::PerDimension),
+        topology: Some(Topology::Global),
+        ..none.clone()
+    };
+    match rule {
+        Rule::Inertia => Settings { c1: Some(2.0), c2: Some(2.0), inertia: linear(0.9, 0.4), ..classic },
+        Rule::Constriction => classic,
+        Rule::Quantum => {
+            Settings { alpha: linear(1.0, 0.5), bounds: Some(Bounds::Stop), topology: Some(Topology::Global), ..none }
+        }
+        Rule::Spso2011 => Settings {
+            inertia: Some(Schedule::Constant(0.5 / std::f64::consts::LN_2)),
+            c: Some(0.5 + std::f64::consts::LN_2),
+            velocity_limit: Some(VelocityLimit::Word(NoLimit::None)),
+            bounds: Some(Bounds::Rebound),
+            topology: Some(Topology::Random),
+            ..none
+        },
+        Rule::Comprehensive => Settings {
+            inertia: linear(0.9, 0.4),
+            c: Some(1.49445),
+            refresh_gap: Some(7),
+            velocity_limit: Some(VelocityLimit::Fraction(0.4)),
+            bounds: Some(Bounds::Invisible),
+            ..none
+        },
+    }
+}
+
 impl Settings {
-    /// Checks every range.
+    /// Checks every range, and that the rule reads every key given.
     ///
     /// # Errors
     /// [`SettingError`] with the setting, its value and what it may be.
     pub fn validate(&self) -> Result<(), SettingError> {
-        let positive = |v: f64| v.is_finite() && v > 0.0;
+        const WEIGHT: &str = "a finite number of at least 0";
         let weight = |v: f64| v.is_finite() && v >= 0.0;
         SettingError::check((1..=10_000).contains(&self.particles), "particles", self.particles, "1 to 10000")?;
         SettingError::check(self.iterations <= 10_000_000, "iterations", self.iterations, "0 to 10000000")?;
@@ -150,73 +154,152 @@ impl Settings {
             "a finite number of at least 1",
         )?;
         SettingError::check(self.side_classes <= 10_000, "side_classes", self.side_classes, "0 to 10000")?;
-        if let VelocityLimit::Fraction(f) = self.velocity_limit {
-            SettingError::check(positive(f), "velocity_limit", f, "a fraction of H above 0, or \"none\"")?;
-        }
-        for (key, value) in [("c1", self.c1), ("c2", self.c2)] {
-            if let Some(c) = value {
-                SettingError::check(weight(c), key, c, "a finite number of at least 0")?;
-                SettingError::check(!self.constriction, key, c, "no value beside constriction = true, which fixes it")?;
-            }
-        }
-        if let Some(inertia) = self.inertia {
-            let (from, to) = inertia.ends();
-            SettingError::check(
-                weight(from) && weight(to),
-                "inertia",
-                format!("{from} → {to}"),
-                "finite numbers of at least 0",
-            )?;
-            SettingError::check(
-                !self.constriction,
-                "inertia",
-                from,
-                "no value beside constriction = true, which fixes it",
-            )?;
-        }
-        Ok(())
+        let read = defaults(self.rule);
+        self.check("c1", self.c1, read.c1, weight, WEIGHT)?;
+        self.check("c2", self.c2, read.c2, weight, WEIGHT)?;
+        self.check("c", self.c, read.c, weight, WEIGHT)?;
+        self.check("inertia", self.inertia, read.inertia, |s| s.ends().into_iter().all(weight), WEIGHT)?;
+        self.check("alpha", self.alpha, read.alpha, |s| s.ends().into_iter().all(weight), WEIGHT)?;
+        let gap = |gap| (1..=10_000_000).contains(&gap);
+        self.check("refresh_gap", self.refresh_gap, read.refresh_gap, gap, "1 to 10000000")?;
+        let speed = |limit| match limit {
+            VelocityLimit::Fraction(f) => f.is_finite() && f > 0.0,
+            VelocityLimit::Word(NoLimit::None) => true,
+        };
+        let fraction = "a fraction of H above 0, or \"none\"";
+        self.check("velocity_limit", self.velocity_limit, read.velocity_limit, speed, fraction)?;
+        self.check("random_numbers", self.random_numbers, read.random_numbers, |_| true, "")?;
+        self.check("topology", self.topology, read.topology, |_| true, "")
     }
 
-    /// The settings with the defaults of c1, c2 and inertia written out.
+    /// A key's value, if given, must be `ok`, and one that the rule reads: one with a default.
+    fn check<T: Copy + std::fmt::Display>(
+        &self,
+        key: &'static str,
+        given: Option<T>,
+        default: Option<T>,
+        ok: impl Fn(T) -> bool,
+        expected: &'static str,
+    ) -> Result<(), SettingError> {
+        let Some(value) = given else { return Ok(()) };
+        SettingError::check(ok(value), key, value, expected)?;
+        SettingError::check(default.is_some(), key, value, self.rule.reads_no_such_key())
+    }
+
+    /// The settings with every default that the rule reads written out.
     #[must_use]
-    pub fn filled(mut self) -> Self {
-        if !self.constriction {
-            self.c1 = self.c1.or(Some(2.0));
-            self.c2 = self.c2.or(Some(2.0));
-            self.inertia = self.inertia.or(Some(Inertia::Linear { from: 0.9, to: 0.4 }));
+    pub fn filled(self) -> Self {
+        let read = defaults(self.rule);
+        Self {
+            c1: self.c1.or(read.c1),
+            c2: self.c2.or(read.c2),
+            inertia: self.inertia.or(read.inertia),
+            c: self.c.or(read.c),
+            alpha: self.alpha.or(read.alpha),
+            refresh_gap: self.refresh_gap.or(read.refresh_gap),
+            velocity_limit: self.velocity_limit.or(read.velocity_limit),
+            bounds: self.bounds.or(read.bounds),
+            random_numbers: self.random_numbers.or(read.random_numbers),
+            topology: self.topology.or(read.topology),
+            ..self
         }
-        self
     }
 
-    /// (c1, c2) in force.
-    pub fn weights(&self) -> (f64, f64) {
-        if self.constriction { (1.49618, 1.49618) } else { (self.c1.unwrap_or(2.0), self.c2.unwrap_or(2.0)) }
-    }
-
-    /// The inertia of iteration `t`, counted from 0.
-    pub fn inertia_at(&self, t: u64) -> f64 {
-        if self.constriction {
-            return 0.7298;
-        }
-        let (from, to) = self.inertia.map_or((0.9, 0.4), Inertia::ends);
-        let last = self.iterations.saturating_sub(1).max(1);
-        from + (to - from) * t as f64 / last as f64
-    }
-
-    /// The largest speed for half width H; +∞ without limit.
+    /// The largest speed for half width H; +∞ without limit. Of filled settings.
     pub fn max_speed(&self, half_width: f64) -> f64 {
         match self.velocity_limit {
-            VelocityLimit::Fraction(f) => f * half_width,
-            VelocityLimit::Word(NoLimit::None) => f64::INFINITY,
+            Some(VelocityLimit::Fraction(f)) => f * half_width,
+            Some(VelocityLimit::Word(NoLimit::None)) | None => f64::INFINITY,
         }
     }
 }
 
-impl Inertia {
-    fn ends(self) -> (f64, f64) {
-        match self {
-            Self::Constant(w) => (w, w),
-            Self::Linear { from, to } => (from, to),
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn message(settings: &Settings) -> String {
+        settings.validate().map_or_else(|error| error.to_string(), |()| "fine".into())
+    }
+
+    const RULES: [Rule; 5] = [Rule::Inertia, Rule::Constriction, Rule::Quantum, Rule::Spso2011, Rule::Comprehensive];
+
+    #[test]
+    fn filled_settings_are_valid_and_stay_as_they_are() {
+        for rule in RULES {
+            let filled = Settings { rule, ..Settings::default() }.filled();
+            assert_eq!(message(&filled), "fine");
+            assert_eq!(filled.clone().filled(), filled);
+        }
+    }
+
+    #[test]
+    fn keys_that_the_rule_does_not_read_are_errors() {
+        let none = Settings::default();
+        let schedule = Some(Schedule::Constant(0.5));
+        let given = [
+            ("c1", Settings { c1: Some(2.0), ..none.clone() }),
+            ("c2", Settings { c2: Some(2.0), ..none.clone() }),
+            ("c", Settings { c: Some(2.0), ..none.clone() }),
+            ("inertia", Settings { inertia: schedule, ..none.clone() }),
+            ("alpha", Settings { alpha: schedule, ..none.clone() }),
+            ("refresh_gap", Settings { refresh_gap: Some(3), ..none.clone() }),
+            ("velocity_limit", Settings { velocity_limit: Some(VelocityLimit::Fraction(1.0)), ..none.clone() }),
+            ("random_numbers", Settings { random_numbers: Some(RandomNumbers::PerParticle), ..none.clone() }),
+            ("topology", Settings { topology: Some(Topology::VonNeumann), ..none.clone() }),
+        ];
+        // Whether inertia, constriction, quantum, spso-2011, comprehensive read the key.
+        let reads = [
+            [true, false, false, false, false],
+            [true, false, false, false, false],
+            [false, false, false, true, true],
+            [true, false, false, true, true],
+            [false, false, true, false, false],
+            [false, false, false, false, true],
+            [true, true, false, true, true],
+            [true, true, false, false, false],
+            [true, true, true, true, false],
+        ];
+        for ((key, settings), reads) in given.into_iter().zip(reads) {
+            for (rule, reads) in RULES.into_iter().zip(reads) {
+                let message = message(&Settings { rule, ..settings.clone() });
+                assert_eq!(message == "fine", reads, "{key} beside {rule:?}: {message}");
+                assert!(reads || message.starts_with(&format!("{key} = ")), "{message}");
+            }
+        }
+    }
+
+    #[test]
+    fn values_out_of_range_are_errors_by_name() {
+        let of = |rule| Settings { rule, ..Settings::default() };
+        for (settings, expected) in [
+            (Settings { c1: Some(-1.0), ..of(Rule::Inertia) }, "c1 = -1; expected a finite number of at least 0"),
+            (Settings { c2: Some(f64::NAN), ..of(Rule::Inertia) }, "c2 = NaN; expected a finite number of at least 0"),
+            (
+                Settings { inertia: Some(Schedule::Linear { from: 0.9, to: -0.1 }), ..of(Rule::Inertia) },
+                "inertia = 0.9 → -0.1; expected a finite number of at least 0",
+            ),
+            (
+                Settings { alpha: Some(Schedule::Constant(f64::INFINITY)), ..of(Rule::Quantum) },
+                "alpha = inf; expected a finite number of at least 0",
+            ),
+            (Settings { c: Some(-1.0), ..of(Rule::Spso2011) }, "c = -1; expected a finite number of at least 0"),
+            (Settings { refresh_gap: Some(0), ..of(Rule::Comprehensive) }, "refresh_gap = 0; expected 1 to 10000000"),
+            (
+                Settings { velocity_limit: Some(VelocityLimit::Fraction(0.0)), ..of(Rule::Inertia) },
+                "velocity_limit = 0; expected a fraction of H above 0, or \"none\"",
+            ),
+            (
+                Settings { topology: Some(Topology::Ring), ..of(Rule::Comprehensive) },
+                "topology = ring; expected no value beside rule = \"comprehensive\", which does not read it",
+            ),
+            (
+                Settings { c1: Some(2.0), ..of(Rule::Constriction) },
+                "c1 = 2; expected no value beside rule = \"constriction\", which fixes it",
+            ),
+            (Settings { penalty: 0.5, ..Settings::default() }, "penalty = 0.5; expected a finite number of at least 1"),
+        ] {
+            assert_eq!(message(&settings), expected);
         }
     }
 }

@@ -4,9 +4,13 @@ use aligned_vec::{AVec, ConstAlign};
 use env_model::{Columns, World};
 use pulp::Arch;
 
+use crate::border::{Advance, Border};
+use crate::choices::{Bounds, Topology};
 use crate::lanes::{BLOCK, Lanes, UniformPairs};
-use crate::pass::{KeepBetter, Motion, Pass};
-use crate::settings::{RandomNumbers, Settings, Topology};
+use crate::neighbours::Neighbours;
+use crate::pass::{KeepBetter, Pass};
+use crate::rules::{UpdateRule, Weights};
+use crate::settings::Settings;
 use crate::terrain::Terrain;
 
 /// Numbers aligned to the widest vectors: one that straddles two cache lines costs two accesses.
@@ -34,15 +38,24 @@ pub struct Swarm {
     pub global: Vec<f64>,
     /// Their cost.
     pub global_cost: f64,
+    /// The particle that found them.
+    leader: usize,
+    /// Smaller neighbourhoods than the whole swarm.
+    pub neighbours: Neighbours,
     /// Lanes whose personal best improved in the last pass.
     pub improved: Vec<bool>,
-    /// Social attractors of a ring topology, laid out like `x`.
+    /// Personal bests of the neighbourhoods' leaders, laid out like `x`; not kept without neighbourhoods.
     pub social: Lane,
-    /// Costs of the last pass.
+    /// Costs of the last pass; +∞ where a particle was not to be evaluated.
     pub cost: Lane,
-    /// Random numbers of the next pass, laid out like `x`.
+    /// How many particles the last pass evaluated.
+    pub evaluated: u64,
+    /// Random numbers of the next step, as many rows of lanes as the rule takes.
     pub random: [Lane; 2],
-    rng: Lanes,
+    /// One generator a lane.
+    pub rng: Lanes,
+    /// A single generator, for choices among particles.
+    pub choices: Lanes,
 }
 
 impl Default for Swarm {
@@ -59,11 +72,15 @@ impl Default for Swarm {
             best_cost: lane(),
             global: Vec::new(),
             global_cost: f64::INFINITY,
+            leader: 0,
+            neighbours: Neighbours::default(),
             improved: Vec::new(),
             social: lane(),
             cost: lane(),
+            evaluated: 0,
             random: [lane(), lane()],
             rng: Lanes::default(),
+            choices: Lanes::default(),
         }
     }
 }
@@ -73,7 +90,7 @@ impl Default for Swarm {
 pub struct Ground<'a> {
     /// The vector unit in use.
     pub arch: Arch,
-    /// The planner's settings.
+    /// The planner's settings, filled.
     pub settings: &'a Settings,
     /// The compiled scene.
     pub world: &'a World,
@@ -84,17 +101,18 @@ pub struct Ground<'a> {
 }
 
 impl Swarm {
-    /// Places and evaluates the initial swarm: uniform on [−H, H]ᵐ, velocity 0.
-    pub fn initialise(&mut self, ground: Ground<'_>, seed: u64) {
+    /// Places and evaluates the initial swarm: uniform on [−H, H]ᵐ, at rest unless `rule` sends it off.
+    pub fn initialise(&mut self, ground: Ground<'_>, rule: &mut dyn UpdateRule, seed: u64) {
         let settings = ground.settings;
         self.particles = settings.particles;
         self.dims = settings.columns;
         self.stride = settings.particles.next_multiple_of(BLOCK);
-        let cells = self.dims * self.stride;
+        let (cells, numbers) = (self.dims * self.stride, rule.rows(self.dims) * self.stride);
         let [random1, random2] = &mut self.random;
-        for matrix in [&mut self.x, &mut self.v, &mut self.best, &mut self.social, random1, random2] {
+        let matrices = [&mut self.x, &mut self.v, &mut self.best, &mut self.social].map(|m| (m, cells));
+        for (matrix, size) in matrices.into_iter().chain([(random1, numbers), (random2, numbers)]) {
             matrix.clear();
-            matrix.resize(cells, 0.0);
+            matrix.resize(size, 0.0);
         }
         for vector in [&mut self.cost, &mut self.best_cost] {
             vector.clear();
@@ -105,73 +123,107 @@ impl Swarm {
         self.global.clear();
         self.global.resize(self.dims, 0.0);
         self.global_cost = f64::INFINITY;
-        self.rng.seed(seed, self.stride);
+        let mut state = seed;
+        self.rng.seed(&mut state, self.stride);
+        self.choices.seed(&mut state, 1);
+        self.neighbours.link(settings.topology.unwrap_or_default(), self.particles, || self.choices.one());
         self.rng.uniform(&mut self.x);
-        let half_width = ground.columns.half_width();
+        let border = Border::of(ground);
         for x in self.x.iter_mut() {
-            *x = (2.0 * *x - 1.0) * half_width;
+            *x = (2.0 * *x - 1.0) * border.half_width;
         }
-        self.pass(ground, None);
+        rule.begin(self, border);
+        self.evaluate(ground, None);
     }
 
     /// Moves, evaluates and updates the bests: iteration `t`, counted from 0.
-    pub fn iterate(&mut self, ground: Ground<'_>, t: u64) {
-        self.pass(ground, Some(Motion::of(ground, t)));
+    pub fn iterate(&mut self, ground: Ground<'_>, rule: &mut dyn UpdateRule, t: u64) {
+        let [first, second] = &mut self.random;
+        ground.arch.dispatch(UniformPairs { lanes: &mut self.rng, rows: [first, second] });
+        self.step(ground, rule, t);
     }
 
-    fn pass(&mut self, ground: Ground<'_>, motion: Option<Motion>) {
-        if motion.is_some() {
-            let numbers = match ground.settings.random_numbers {
-                RandomNumbers::PerDimension => self.dims * self.stride,
-                RandomNumbers::PerParticle => self.stride,
-            };
-            let [first, second] = &mut self.random;
-            let rows = [&mut first[..numbers], &mut second[..numbers]];
-            ground.arch.dispatch(UniformPairs { lanes: &mut self.rng, rows });
+    /// An iteration with the random numbers that have been drawn.
+    pub fn step(&mut self, ground: Ground<'_>, rule: &mut dyn UpdateRule, t: u64) {
+        let border = Border::of(ground);
+        let motion = rule.steer(self, t).map(|weights| (weights, border));
+        if motion.is_none() {
+            ground.arch.dispatch(Advance { swarm: self, border });
         }
+        self.evaluate(ground, motion);
+    }
+
+    fn evaluate(&mut self, ground: Ground<'_>, motion: Option<(Weights, Border)>) {
         if ground.terrain.only_discs() {
             ground.arch.dispatch(Pass::<false> { swarm: self, ground, motion });
         } else {
             ground.arch.dispatch(Pass::<true> { swarm: self, ground, motion });
         }
-        let mut leader = None;
+        self.evaluated = self.particles as u64;
+        if ground.settings.bounds.unwrap_or_default() == Bounds::Invisible {
+            self.ignore_outside(ground.columns.half_width());
+        }
+        self.keep_bests(ground);
+    }
+
+    /// As if particles past |y'| = `half_width` had not been evaluated.
+    fn ignore_outside(&mut self, half_width: f64) {
+        for i in 0..self.particles {
+            if (0..self.dims).any(|d| self.x[d * self.stride + i].abs() > half_width) {
+                self.cost[i] = f64::INFINITY;
+                self.evaluated -= 1;
+            }
+        }
+    }
+
+    fn keep_bests(&mut self, ground: Ground<'_>) {
+        let before = self.global_cost;
         let mut any = false;
         for i in 0..self.particles {
             self.improved[i] = self.cost[i] < self.best_cost[i];
             any |= self.improved[i];
         }
-        if !any {
-            return;
+        if any {
+            ground.arch.dispatch(KeepBetter(self));
+            self.find_leader();
         }
-        ground.arch.dispatch(KeepBetter(self));
-        for (i, &cost) in self.best_cost[..self.particles].iter().enumerate() {
-            if cost < self.global_cost {
-                (self.global_cost, leader) = (cost, Some(i));
-            }
+        let topology = ground.settings.topology.unwrap_or_default();
+        let redraw = topology == Topology::Random && self.global_cost == before;
+        if redraw {
+            self.neighbours.link(topology, self.particles, || self.choices.one());
         }
-        if let Some(leader) = leader {
-            for d in 0..self.dims {
-                self.global[d] = self.best[d * self.stride + leader];
-            }
-        }
-        if ground.settings.topology == Topology::Ring {
-            self.gather_ring();
+        if topology != Topology::Global && (any || redraw) {
+            self.gather_social();
         }
     }
 
-    /// The best of each particle's ring neighbourhood; ties go to the lower index.
-    fn gather_ring(&mut self) {
-        let n = self.particles;
-        for i in 0..n {
-            let mut neighbours = [(i + n - 1) % n, i, (i + 1) % n];
-            neighbours.sort_unstable();
-            let leader = neighbours
-                .into_iter()
-                .fold(neighbours[0], |l, j| if self.best_cost[j] < self.best_cost[l] { j } else { l });
-            for d in 0..self.dims {
-                self.social[d * self.stride + i] = self.best[d * self.stride + leader];
+    /// The best of all; ties go to the earlier one, then to the lower index.
+    fn find_leader(&mut self) {
+        let before = self.global_cost;
+        for (i, &cost) in self.best_cost[..self.particles].iter().enumerate() {
+            if cost < self.global_cost {
+                (self.global_cost, self.leader) = (cost, i);
             }
         }
+        if self.global_cost < before {
+            for d in 0..self.dims {
+                self.global[d] = self.best[d * self.stride + self.leader];
+            }
+        }
+    }
+
+    fn gather_social(&mut self) {
+        self.neighbours.lead(&self.best_cost[..self.particles]);
+        for (social, best) in self.social.chunks_exact_mut(self.stride).zip(self.best.chunks_exact(self.stride)) {
+            for (social, &leader) in social.iter_mut().zip(&self.neighbours.leaders) {
+                *social = best[leader as usize];
+            }
+        }
+    }
+
+    /// The particle whose personal best attracts particle `i`.
+    pub fn leader_of(&self, i: usize) -> usize {
+        self.neighbours.leaders.get(i).map_or(self.leader, |&leader| leader as usize)
     }
 
     /// Copies a matrix to rows of particles, for observers.
@@ -183,13 +235,19 @@ impl Swarm {
     }
 }
 
+/// Which of particles `a` and `b` has the lower cost; ties go to the lower index.
+pub fn better(costs: &[f64], a: usize, b: usize) -> usize {
+    if costs[b] < costs[a] || (costs[b] == costs[a] && b < a) { b } else { a }
+}
+
 #[cfg(test)]
 mod tests {
     use env_model::geometry::point_segment_distance;
     use env_model::{Point, Scene};
 
     use super::*;
-    use crate::settings::{Bounds, VelocityLimit};
+    use crate::choices::{RandomNumbers, Rule, VelocityLimit};
+    use crate::rules::rule;
 
     /// The digest's pseudo-code, one particle and one number at a time, with
     /// distances from the environment model instead of the terrain's shortcuts.
@@ -220,7 +278,7 @@ mod tests {
                 .fold(0.0, |sum, f| sum + f)
         };
         let mut lanes = Lanes::default();
-        lanes.seed(seed, n.next_multiple_of(BLOCK));
+        lanes.seed(&mut { seed }, n.next_multiple_of(BLOCK));
 
         let stride = n.next_multiple_of(BLOCK);
         let (mut first, mut second) = (vec![0.0; m * stride], vec![0.0; m * stride]);
@@ -241,7 +299,7 @@ mod tests {
         lead(&mut r);
         let vmax = settings.max_speed(h);
         for t in 0..settings.iterations {
-            let w = settings.inertia_at(t);
+            let w = 0.9 + (0.4 - 0.9) * t as f64 / (settings.iterations - 1) as f64;
             Arch::Scalar.dispatch(UniformPairs { lanes: &mut lanes, rows: [&mut first, &mut second] });
             for i in 0..n {
                 #[allow(clippy::needless_range_loop, reason = "the transcription keeps the paper's indices")]
@@ -272,13 +330,15 @@ mod tests {
     }
 
     fn run(arch: Arch, settings: &Settings, world: &World, columns: &Columns, seed: u64) -> Swarm {
+        let settings = &settings.clone().filled();
         let mut terrain = Terrain::default();
-        terrain.compile(world, columns, settings.bounds);
+        terrain.compile(world, columns, settings.bounds.unwrap_or_default());
         let mut swarm = Swarm::default();
+        let mut rule = rule(settings);
         let ground = Ground { arch, settings, world, columns, terrain: &terrain };
-        swarm.initialise(ground, seed);
+        swarm.initialise(ground, rule.as_mut(), seed);
         for t in 0..settings.iterations {
-            swarm.iterate(ground, t);
+            swarm.iterate(ground, rule.as_mut(), t);
         }
         swarm
     }
@@ -288,7 +348,8 @@ mod tests {
         let scene = scene();
         let world = World::new(&scene).unwrap();
         for (particles, columns_count) in [(20, 20), (7, 5), (1, 1), (33, 40)] {
-            let settings = Settings { particles, columns: columns_count, iterations: 100, ..Settings::default() };
+            let settings =
+                Settings { particles, columns: columns_count, iterations: 100, ..Settings::default() }.filled();
             let columns = Columns::new(scene.start(), scene.goal(), columns_count);
             for seed in 0..5 {
                 let swarm = run(Arch::new(), &settings, &world, &columns, seed);
@@ -300,29 +361,81 @@ mod tests {
         }
     }
 
+    const BOUNDS: [Bounds; 6] =
+        [Bounds::None, Bounds::Clip, Bounds::Stop, Bounds::Rebound, Bounds::Reflect, Bounds::Invisible];
+    const TOPOLOGIES: [Topology; 4] = [Topology::Global, Topology::Ring, Topology::VonNeumann, Topology::Random];
+
     #[test]
     fn vector_width_changes_nothing() {
         let scene = scene();
         let world = World::new(&scene).unwrap();
         let columns = Columns::new(scene.start(), scene.goal(), 20);
-        for bounds in [Bounds::None, Bounds::Clip, Bounds::Stop, Bounds::Reflect] {
-            for random_numbers in [RandomNumbers::PerDimension, RandomNumbers::PerParticle] {
-                for topology in [Topology::Global, Topology::Ring] {
-                    let settings = Settings {
-                        bounds,
-                        random_numbers,
-                        topology,
-                        velocity_limit: VelocityLimit::Fraction(1.0),
-                        iterations: 50,
-                        ..Settings::default()
-                    };
-                    let wide = run(Arch::new(), &settings, &world, &columns, 3);
-                    let narrow = run(Arch::Scalar, &settings, &world, &columns, 3);
-                    assert_eq!(wide.x, narrow.x);
-                    assert_eq!(wide.best, narrow.best);
-                    assert_eq!(wide.global_cost.to_bits(), narrow.global_cost.to_bits());
+        let check = |settings: &Settings| {
+            let wide = run(Arch::new(), settings, &world, &columns, 3);
+            let narrow = run(Arch::Scalar, settings, &world, &columns, 3);
+            assert_eq!(wide.x, narrow.x, "{settings:?}");
+            assert_eq!(wide.best, narrow.best);
+            assert_eq!(wide.global_cost.to_bits(), narrow.global_cost.to_bits());
+        };
+        for bounds in BOUNDS {
+            for topology in TOPOLOGIES {
+                let velocity_limit = Some(VelocityLimit::Fraction(1.0));
+                let (bounds, topology) = (Some(bounds), Some(topology));
+                let inertia = Settings { bounds, topology, iterations: 50, ..Settings::default() };
+                for random_numbers in [RandomNumbers::PerDimension, RandomNumbers::PerParticle] {
+                    check(&Settings { velocity_limit, random_numbers: Some(random_numbers), ..inertia.clone() });
+                }
+                for rule in [Rule::Quantum, Rule::Spso2011] {
+                    check(&Settings { rule, ..inertia.clone() });
                 }
             }
+            let (bounds, rule) = (Some(bounds), Rule::Comprehensive);
+            check(&Settings { rule, bounds, iterations: 50, ..Settings::default() });
+        }
+    }
+
+    /// Nothing of one run, not even of another size, is left in the next.
+    #[test]
+    fn a_used_swarm_is_as_good_as_new() {
+        let scene = scene();
+        let world = World::new(&scene).unwrap();
+        let columns = Columns::new(scene.start(), scene.goal(), 9);
+        for rule_name in [Rule::Inertia, Rule::Quantum, Rule::Spso2011, Rule::Comprehensive] {
+            let settings = Settings { rule: rule_name, columns: 9, iterations: 40, ..Settings::default() }.filled();
+            let fresh = run(Arch::new(), &settings, &world, &columns, 8);
+            let mut terrain = Terrain::default();
+            terrain.compile(&world, &columns, settings.bounds.unwrap_or_default());
+            let ground =
+                Ground { arch: Arch::new(), settings: &settings, world: &world, columns: &columns, terrain: &terrain };
+            let (mut swarm, mut rule) = (Swarm::default(), rule(&settings));
+            for seed in [7, 8] {
+                swarm.initialise(ground, rule.as_mut(), seed);
+                for t in 0..settings.iterations {
+                    swarm.iterate(ground, rule.as_mut(), t);
+                }
+            }
+            assert_eq!(swarm.x, fresh.x, "{rule_name:?}");
+            assert_eq!(swarm.v, fresh.v);
+            assert_eq!(swarm.global, fresh.global);
+        }
+    }
+
+    /// Particles outside the rectangle neither count as evaluated nor enter the bests.
+    #[test]
+    fn invisible_walls_hide_what_is_outside() {
+        let scene = scene();
+        let world = World::new(&scene).unwrap();
+        let columns = Columns::new(scene.start(), scene.goal(), 20);
+        let settings = Settings { rule: Rule::Comprehensive, iterations: 12, ..Settings::default() };
+        let swarm = run(Arch::new(), &settings, &world, &columns, 1);
+        let h = columns.half_width();
+        let inside = |i: &usize| (0..swarm.dims).all(|d| (-h..=h).contains(&swarm.x[d * swarm.stride + i]));
+        let seen = (0..swarm.particles).filter(inside).count();
+        assert!((1..swarm.particles).contains(&seen), "{seen} inside: the scene no longer tests anything");
+        assert_eq!(swarm.evaluated, seen as u64);
+        for i in 0..swarm.particles {
+            assert_eq!(swarm.cost[i].is_finite(), inside(&i));
+            assert!((0..swarm.dims).all(|d| (-h..=h).contains(&swarm.best[d * swarm.stride + i])));
         }
     }
 
@@ -334,20 +447,20 @@ mod tests {
         let scene = Scene::from_toml("mixed-shapes.toml", file).unwrap();
         let world = World::new(&scene).unwrap();
         let (mut hits, mut outside, mut free) = (0, 0, 0);
-        for bounds in [Bounds::None, Bounds::Clip, Bounds::Stop, Bounds::Reflect] {
-            for topology in [Topology::Global, Topology::Ring] {
+        for bounds in BOUNDS {
+            for topology in TOPOLOGIES {
                 let settings = Settings {
-                    bounds,
-                    topology,
+                    bounds: Some(bounds),
+                    topology: Some(topology),
                     columns: 12,
                     iterations: 30,
-                    velocity_limit: VelocityLimit::Fraction(2.0),
+                    velocity_limit: Some(VelocityLimit::Fraction(2.0)),
                     ..Settings::default()
                 };
                 let columns = Columns::new(scene.start(), scene.goal(), settings.columns);
                 let swarm = run(Arch::new(), &settings, &world, &columns, 9);
                 let mut path = Vec::new();
-                for i in 0..swarm.particles {
+                for i in (0..swarm.particles).filter(|&i| swarm.cost[i].is_finite()) {
                     let heights: Vec<f64> = (0..swarm.dims).map(|d| swarm.x[d * swarm.stride + i]).collect();
                     columns.write_path(&heights, &mut path);
                     let cost: f64 = path

@@ -9,7 +9,7 @@
 
 use env_model::{Aabb, Columns, Point, World};
 
-use crate::settings::Bounds;
+use crate::choices::Bounds;
 
 /// A disc that can touch a strip, relative to the strip's left column.
 #[derive(Debug, Clone, Copy)]

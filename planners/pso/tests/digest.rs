@@ -2,7 +2,7 @@
 
 use env_model::{Scene, World, path_length};
 use planner_api::{Plan, Planner, Problem, Run};
-use planner_pso::{Bounds, NoLimit, Pso, RandomNumbers, Settings, Topology, VelocityLimit};
+use planner_pso::{Bounds, NoLimit, Pso, RandomNumbers, Rule, Settings, Topology, VelocityLimit};
 
 fn paper() -> Scene {
     Scene::from_toml("lu-sun-2012.toml", include_str!("../../../configs/scenes/lu-sun-2012.toml")).unwrap()
@@ -28,7 +28,7 @@ fn campaign(settings: Settings, seeds: u64) -> (f64, f64) {
 
 fn reading(bounds: Bounds, limit: Option<f64>) -> Settings {
     let velocity_limit = limit.map_or(VelocityLimit::Word(NoLimit::None), VelocityLimit::Fraction);
-    Settings { bounds, velocity_limit, ..Settings::default() }
+    Settings { bounds: Some(bounds), velocity_limit: Some(velocity_limit), ..Settings::default() }
 }
 
 #[test]
@@ -52,12 +52,22 @@ fn table() {
     ] {
         println!("{bounds:?} {limit:?}: {:?}", campaign(reading(bounds, limit), 1000));
     }
-    let per_particle = Settings { random_numbers: RandomNumbers::PerParticle, ..reading(Free, None) };
+    let per_particle = Settings { random_numbers: Some(RandomNumbers::PerParticle), ..reading(Free, None) };
     println!("one pair a particle: {:?}", campaign(per_particle, 1000));
-    for topology in [Topology::Global, Topology::Ring] {
+    for topology in [Topology::Global, Topology::Ring, Topology::VonNeumann, Topology::Random] {
         for limit in [None, Some(0.5)] {
-            let s = Settings { constriction: true, topology, ..reading(Stop, limit) };
+            let s = Settings { rule: Rule::Constriction, topology: Some(topology), ..reading(Stop, limit) };
             println!("constriction {topology:?} {limit:?}: {:?}", campaign(s, 1000));
+        }
+        for rule in [Rule::Inertia, Rule::Quantum, Rule::Spso2011] {
+            let s = Settings { rule, topology: Some(topology), ..Settings::default() };
+            println!("{rule:?} {topology:?}: {:?}", campaign(s, 1000));
+        }
+    }
+    for bounds in [Free, Clip, Stop, Bounds::Rebound, Reflect, Bounds::Invisible] {
+        for rule in [Rule::Quantum, Rule::Spso2011, Rule::Comprehensive] {
+            let s = Settings { rule, bounds: Some(bounds), ..Settings::default() };
+            println!("{rule:?} {bounds:?}: {:?}", campaign(s, 1000));
         }
     }
 }

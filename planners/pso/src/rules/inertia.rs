@@ -1,0 +1,79 @@
+//! The paper's rule, and Clerc & Kennedy's: inertia and two attractors.
+//!
+//! v ← w v + c1 r1 (pbest − x) + c2 r2 (gbest − x), x ← x + v (Lu & Sun 2012,
+//! equations 1 and 2; Shi & Eberhart 1998), r1, r2 uniform on [0, 1). With
+//! constriction (Clerc & Kennedy 2002) w = χ and c1 = c2 = χφ/2, φ = 4.1.
+//!
+//! It has no file of loops: the evaluation's sweep computes the velocities as it
+//! reads the positions, which is twice as fast.
+
+use pulp::Simd;
+
+use super::UpdateRule;
+use crate::choices::{RandomNumbers, Rule, Schedule};
+use crate::settings::Settings;
+use crate::swarm::Swarm;
+
+/// χ for φ = 4.1, and χφ/2, as everyone rounds them.
+const CONSTRICTION: Weights = Weights { w: 0.7298, c1: 1.49618, c2: 1.49618 };
+
+/// The numbers of equation (1) in one iteration.
+#[derive(Debug, Clone, Copy)]
+pub struct Weights {
+    /// Inertia.
+    pub w: f64,
+    /// Pull of the personal best.
+    pub c1: f64,
+    /// Pull of the social best.
+    pub c2: f64,
+}
+
+impl Weights {
+    /// Equation (1): the new velocities of particles at `x`.
+    #[inline(always)]
+    pub fn velocity<S: Simd>(
+        &self,
+        simd: S,
+        (r1, r2): (S::f64s, S::f64s),
+        (x, v): (S::f64s, S::f64s),
+        (own, social): (S::f64s, S::f64s),
+    ) -> S::f64s {
+        let splat = |value: f64| simd.splat_f64s(value);
+        let pull = |c: f64, r, to| simd.mul_f64s(simd.mul_f64s(splat(c), r), simd.sub_f64s(to, x));
+        simd.add_f64s(simd.add_f64s(simd.mul_f64s(splat(self.w), v), pull(self.c1, r1, own)), pull(self.c2, r2, social))
+    }
+}
+
+/// The rule.
+pub struct Inertia {
+    inertia: Schedule,
+    iterations: u64,
+    weights: Weights,
+    per_particle: bool,
+}
+
+impl Inertia {
+    /// With the weights of `settings`, or with constriction's.
+    pub fn new(settings: &Settings) -> Self {
+        let weights = match settings.rule {
+            Rule::Constriction => CONSTRICTION,
+            _ => Weights { w: 0.0, c1: settings.c1.unwrap_or_default(), c2: settings.c2.unwrap_or_default() },
+        };
+        Self {
+            inertia: settings.inertia.unwrap_or(Schedule::Constant(weights.w)),
+            iterations: settings.iterations,
+            weights,
+            per_particle: settings.random_numbers.unwrap_or_default() == RandomNumbers::PerParticle,
+        }
+    }
+}
+
+impl UpdateRule for Inertia {
+    fn rows(&self, dims: usize) -> usize {
+        if self.per_particle { 1 } else { dims }
+    }
+
+    fn steer(&mut self, _: &mut Swarm, t: u64) -> Option<Weights> {
+        Some(Weights { w: self.inertia.at(t, self.iterations), ..self.weights })
+    }
+}
