@@ -2,16 +2,14 @@
 
 use planner_api::{Planner, SettingError};
 use planner_baseline::{RandomSearch, StraightLine, StraightLineSettings};
+use planner_genetic::{GridGa, VertexGa};
 use planner_grid_search::GridSearch;
 use planner_neural::Neural;
 use planner_potential_field::PotentialField;
 use planner_pso::Pso;
 use planner_qp::{Classes, Qp};
-use planner_rrt::{RrtConnect, RrtStar};
-use planner_genetic::{GridGa, VertexGa};
-use planner_pso::Pso;
-use planner_qp::{Classes, Qp};
 use planner_quantum_ga::QuantumGa;
+use planner_rrt::{RrtConnect, RrtStar};
 use planner_tangent::Tangent;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -101,6 +99,8 @@ pub fn kinds() -> &'static [Kind] {
             summary: "Basic Theta*: A* on the grid whose path may take any angle",
             source: "Nash, Daniel, Koenig & Felner 2007, AAAI-07, 1177-1183",
             make: |settings| plain(settings, GridSearch::theta_star),
+        },
+        Kind {
             name: "potential-field",
             summary: "Descent in an artificial potential field; sticks in local minima and says where",
             source: "Khatib 1986, IJRR 5(1), 90-98; Ge & Cui 2000, IEEE T-RA 16(5), 615-620",
@@ -112,6 +112,8 @@ pub fn kinds() -> &'static [Kind] {
             source: "Glasius, Komoda & Gielen 1995, Neural Networks 8(1), 125-133; \
                      Yang & Meng 2001, IEEE T-SMC B 31(3), 302-318",
             make: |settings| plain(settings, Neural::new),
+        },
+        Kind {
             name: "rrt-connect",
             summary: "Two random trees from start and goal that grow towards each other; the first path",
             source: "Kuffner & LaValle 2000, ICRA, 995-1001",
@@ -128,6 +130,8 @@ pub fn kinds() -> &'static [Kind] {
             summary: "RRT* that samples the ellipse in which a path may be shorter than the best one",
             source: "Gammell, Srinivasa & Barfoot 2014, IROS, 2997-3004",
             make: |settings| plain(settings, RrtStar::informed),
+        },
+        Kind {
             name: "grid-ga",
             summary: "Genetic algorithm on lists of numbered cells, with insertion, deletion and smoothing",
             source: "Fang 2009, master's thesis, section 4.5",
