@@ -1,9 +1,9 @@
 //! The risk of every cell (Wang & Zhu 2018, §1.3).
 //!
-//! w(cell) = δ·level(centre) + Σ_f kernel[ring of the cell round f's cell], where
-//! the level is that of the [influence regions](crate::influence), ring 0 is the
-//! defender's own cell, ring r the cells at Chebyshev distance r, and rings beyond
-//! the kernel add nothing. Several influences add up.
+//! w(cell) = δ·level(centre) + Σ kernel[r(cell, f)] over the defenders f, where the
+//! level is that of the [influence regions](crate::influence) and r is the
+//! Chebyshev distance in cells from the defender's own cell: 0 in it, 1 on the ring
+//! round it. Rings beyond the kernel add nothing. Several influences add up.
 //!
 //! The paper wants cells near a defender above all others; with these sums it is
 //! so while the kernel's last value exceeds δ·(number of defenders), as in its

@@ -2,6 +2,7 @@
 
 use planner_api::{Planner, SettingError};
 use planner_baseline::{RandomSearch, StraightLine, StraightLineSettings};
+use planner_influence_astar::InfluenceAstar;
 use planner_pso::Pso;
 use planner_qp::{Classes, Qp};
 use planner_tangent::Tangent;
@@ -74,6 +75,12 @@ pub fn kinds() -> &'static [Kind] {
             summary: "The exact shortest path among discs",
             source: "tangent visibility graph, after arXiv:1103.3911",
             make: |settings| plain(settings, Tangent::new),
+        },
+        Kind {
+            name: "influence-astar",
+            summary: "A* on cells that weighs length against the risk of the defenders' influence regions",
+            source: "Wang & Zhu 2018, Computer Systems & Applications 27(1), 189-194",
+            make: |settings| plain(settings, InfluenceAstar::new),
         },
     ];
     KINDS
