@@ -15,6 +15,8 @@ pub fn planners() -> Vec<(String, Box<dyn Planner>)> {
         ("straight-line + qp", "straight-line", "refine = [\"qp\"]"),
         ("tangent + smooth qp", "tangent", "refine = [{ kind = \"qp\", objective = \"smooth\" }]"),
         ("pso-qp, final class", "pso-qp", "classes = \"final\""),
+        ("influence-astar, soft", "influence-astar", "obstacles = \"soft\""),
+        ("influence-astar, ring, pitch", "influence-astar", "heuristic = \"ring\"\nsearch_space = \"pitch\""),
         ("pso, ring", "pso", "topology = \"ring\"\nbounds = \"reflect\""),
     ] {
         let planner = build_str(kind, settings).unwrap_or_else(|e| panic!("{name}: {e}")).planner;

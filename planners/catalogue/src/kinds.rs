@@ -6,6 +6,7 @@ use planner_genetic::{GridGa, VertexGa};
 use planner_grid_search::GridSearch;
 use planner_neural::Neural;
 use planner_potential_field::PotentialField;
+use planner_influence_astar::InfluenceAstar;
 use planner_pso::Pso;
 use planner_qp::{Classes, Qp};
 use planner_quantum_ga::QuantumGa;
@@ -148,6 +149,10 @@ pub fn kinds() -> &'static [Kind] {
             summary: "Quantum-inspired evolution of the bits of heights on the columns of the 2012 paper",
             source: "Han & Kim 2002, IEEE Trans. Evolutionary Computation 6(6), 580-593",
             make: |settings| plain(settings, QuantumGa::new),
+            name: "influence-astar",
+            summary: "A* on cells that weighs length against the risk of the defenders' influence regions",
+            source: "Wang & Zhu 2018, Computer Systems & Applications 27(1), 189-194",
+            make: |settings| plain(settings, InfluenceAstar::new),
         },
     ];
     KINDS
