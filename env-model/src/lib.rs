@@ -13,6 +13,8 @@ pub mod frame;
 pub mod generate;
 pub mod geometry;
 pub mod grid;
+#[cfg(feature = "import")]
+pub mod import;
 pub mod inflated;
 pub mod influence;
 pub mod risk;
