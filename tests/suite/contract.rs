@@ -109,7 +109,7 @@ fn the_same_seed_gives_the_same_plan_again_after_reset_and_in_a_new_planner() {
 fn seeds_matter_to_random_planners() {
     let scene = scenes::paper();
     let world = scenes::world(&scene);
-    for kind in ["pso", "random-search"] {
+    for kind in ["pso", "random-search", "ant-colony"] {
         let mut planner = build_str(kind, "").unwrap().planner;
         let (a, _) = plan(planner.as_mut(), &scene, &world, &mut Run::new(1));
         let (b, _) = plan(planner.as_mut(), &scene, &world, &mut Run::new(2));
@@ -175,7 +175,7 @@ fn best_cost_never_worsens_and_watching_changes_nothing() {
 fn an_observer_can_stop_the_run() {
     let scene = scenes::paper();
     let world = scenes::world(&scene);
-    for kind in ["pso", "pso-qp", "random-search"] {
+    for kind in ["pso", "pso-qp", "random-search", "ant-colony"] {
         let mut planner = build_str(kind, "").unwrap().planner;
         let mut observer = watch(kind, Detail::Progress, 3);
         let (plan, status) = plan(planner.as_mut(), &scene, &world, &mut Run::new(4).with_observer(&mut observer));

@@ -15,6 +15,8 @@ pub fn planners() -> Vec<(String, Box<dyn Planner>)> {
         ("straight-line + qp", "straight-line", "refine = [\"qp\"]"),
         ("tangent + smooth qp", "tangent", "refine = [{ kind = \"qp\", objective = \"smooth\" }]"),
         ("pso-qp, final class", "pso-qp", "classes = \"final\""),
+        ("astar + qp", "astar", "refine = [\"qp\"]"),
+        ("ant-colony, no elitists", "ant-colony", "elitists = 0.0\ndead_end = \"die\"\nalpha = 2.0"),
         ("pso, ring", "pso", "topology = \"ring\"\nbounds = \"reflect\""),
     ] {
         let planner = build_str(kind, settings).unwrap_or_else(|e| panic!("{name}: {e}")).planner;

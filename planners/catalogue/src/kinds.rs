@@ -1,6 +1,8 @@
 //! The list of planners.
 
+use planner_ant_colony::AntColony;
 use planner_api::{Planner, SettingError};
+
 use planner_baseline::{RandomSearch, StraightLine, StraightLineSettings};
 use planner_grid_search::GridSearch;
 use planner_pso::Pso;
@@ -93,6 +95,12 @@ pub fn kinds() -> &'static [Kind] {
             summary: "Basic Theta*: A* on the grid whose path may take any angle",
             source: "Nash, Daniel, Koenig & Felner 2007, AAAI-07, 1177-1183",
             make: |settings| plain(settings, GridSearch::theta_star),
+        },
+        Kind {
+            name: "ant-colony",
+            summary: "Ant System on a grid of cells, loops cut out of tours",
+            source: "Dorigo, Maniezzo & Colorni 1996, IEEE Trans. Systems, Man, and Cybernetics B 26(1), 29-41",
+            make: |settings| plain(settings, AntColony::new),
         },
     ];
     KINDS
