@@ -116,18 +116,22 @@ impl CellGrid {
         Some(self.cell(column, row))
     }
 
+    /// The cells that moves from `from` lead to, in the order of [`MOVES`]; `None` where
+    /// a move would leave the grid, enter a blocked cell or cut the corner of one.
+    pub fn moves(&self, blocked: &[bool], from: usize) -> [Option<usize>; 8] {
+        let at = self.position(from);
+        let free = MOVES.map(|by| self.offset(at, by).filter(|cell| !blocked[*cell]));
+        let beside_free = |k: usize| free[k - 1].is_some() && free[(k + 1) % 8].is_some();
+        std::array::from_fn(|k| free[k].filter(|_| k % 2 == 0 || beside_free(k)))
+    }
+
     /// Calls `visit(cell, diagonal)` for every neighbour of `from` that a move
     /// may lead to: not blocked, and not cutting the corner of a blocked cell.
     /// The order is that of [`MOVES`].
     pub fn for_each_move(&self, blocked: &[bool], from: usize, mut visit: impl FnMut(usize, bool)) {
-        let at = self.position(from);
-        let free = MOVES.map(|by| self.offset(at, by).filter(|cell| !blocked[*cell]));
-        for (k, to) in free.iter().enumerate() {
-            let diagonal = k % 2 == 1;
-            if let Some(to) = to
-                && (!diagonal || (free[k - 1].is_some() && free[(k + 1) % 8].is_some()))
-            {
-                visit(*to, diagonal);
+        for (k, to) in self.moves(blocked, from).into_iter().enumerate() {
+            if let Some(to) = to {
+                visit(to, k % 2 == 1);
             }
         }
     }
@@ -138,6 +142,25 @@ impl CellGrid {
         let ((ac, ar), (bc, br)) = (self.position(a), self.position(b));
         let (dx, dy) = (ac.abs_diff(bc), ar.abs_diff(br));
         (dx.max(dy) - dx.min(dy)) as f64 + std::f64::consts::SQRT_2 * dx.min(dy) as f64
+    }
+
+    /// Writes the polyline from `start` through the centres of `cells` to `goal`, without
+    /// the centres between two equal moves and without repeated points.
+    pub fn write_path(&self, start: Point, cells: &[usize], goal: Point, path: &mut Vec<Point>) {
+        let delta = |a: usize, b: usize| {
+            let ((ac, ar), (bc, br)) = (self.position(a), self.position(b));
+            (bc.wrapping_sub(ac), br.wrapping_sub(ar))
+        };
+        path.clear();
+        path.push(start);
+        for (i, &cell) in cells.iter().enumerate() {
+            let p = self.centre(cell);
+            let passed = i > 0 && i + 1 < cells.len() && delta(cells[i - 1], cell) == delta(cell, cells[i + 1]);
+            if !passed && p != path[path.len() - 1] && p != goal {
+                path.push(p);
+            }
+        }
+        path.push(goal);
     }
 
     /// Marks the cells that the robot may not use: those whose square an inflated
@@ -211,22 +234,21 @@ impl CellGrid {
 /// Whether the inflated obstacle, an open set, reaches deeper than `slack` into the square.
 fn touches(obstacle: &Inflated, square: &Aabb, slack: f64) -> bool {
     let reach = obstacle.radius - slack;
-    // The square's middle decides for all but the squares along the border.
-    let middle = square.centre();
-    let far = || obstacle.point_clearance(middle) > 0.5 * square.diagonal();
+    // Most sides are far from most squares, which their boxes alone tell.
+    let near =
+        |square: &Aabb, reach: f64, a: Point, b: Point| Aabb::of_points([&a, &b]).inflated(reach).overlaps(square);
     match &obstacle.core {
         Core::Point(c) => square.distance_squared(&Aabb { min: *c, max: *c }) < reach * reach && reach > 0.0,
-        Core::Segment(a, b) => !far() && segment_distance(square, *a, *b) < reach,
+        Core::Segment(a, b) => near(square, reach, *a, *b) && segment_distance(square, *a, *b) < reach,
         Core::Polygon(polygon) => {
-            polygon.contains(middle)
-                || !far()
-                    && if reach > 0.0 {
-                        polygon.sides().any(|(a, b)| segment_distance(square, a, b) < reach)
-                    } else {
-                        // A point robot: sharing a border is not touching.
-                        let inner = square.inflated(reach);
-                        polygon.sides().any(|(a, b)| segment_distance(&inner, a, b) == 0.0)
-                    }
+            polygon.contains(square.centre())
+                || if reach > 0.0 {
+                    polygon.sides().any(|(a, b)| near(square, reach, a, b) && segment_distance(square, a, b) < reach)
+                } else {
+                    // A point robot: sharing a border is not touching.
+                    let inner = square.inflated(reach);
+                    polygon.sides().any(|(a, b)| near(&inner, 0.0, a, b) && segment_distance(&inner, a, b) == 0.0)
+                }
         }
     }
 }
@@ -356,6 +378,18 @@ mod tests {
         let mut moves = Vec::new();
         grid.for_each_move(&blocked, grid.cell(2, 2), |cell, diagonal| moves.push((grid.position(cell), diagonal)));
         assert_eq!(moves, [((2, 3), false), ((1, 3), true), ((1, 2), false), ((1, 1), true), ((2, 1), false)]);
+    }
+
+    #[test]
+    fn paths_turn_at_centres() {
+        let grid = CellGrid::along_longer_side(&square_field(), 10);
+        let (start, goal) = (Point::new(0.5, 0.5), Point::new(4.7, 3.5));
+        let mut path = Vec::new();
+        // From the centre of cell 0 right twice, diagonally up twice and up.
+        grid.write_path(start, &[0, 1, 2, 13, 24, 34], goal, &mut path);
+        assert_eq!(path, [start, Point::new(2.5, 0.5), Point::new(4.5, 2.5), Point::new(4.5, 3.5), goal]);
+        grid.write_path(start, &[0], goal, &mut path);
+        assert_eq!(path, [start, goal]);
     }
 
     #[test]

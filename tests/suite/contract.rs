@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use env_model::{Point, Scene, World, path_length};
 use planner_api::{Budget, Detail, Frame, Observer, Plan, PlanError, Planner, Problem, Run, Status, View};
-use planner_catalogue::build_str;
+use planner_catalogue::{build_str, kinds};
 
 use crate::planners::planners;
 use crate::scenes;
@@ -105,11 +105,23 @@ fn the_same_seed_gives_the_same_plan_again_after_reset_and_in_a_new_planner() {
     }
 }
 
+/// The kinds that draw no random numbers.
+const DETERMINISTIC: &[&str] = &[
+    "straight-line",
+    "tangent",
+    "influence-astar",
+    "astar",
+    "dijkstra",
+    "theta-star",
+    "potential-field",
+    "neural",
+];
+
 #[test]
 fn seeds_matter_to_random_planners() {
     let scene = scenes::paper();
     let world = scenes::world(&scene);
-    for kind in ["pso", "random-search"] {
+    for kind in kinds().iter().map(|k| k.name).filter(|k| !DETERMINISTIC.contains(k)) {
         let mut planner = build_str(kind, "").unwrap().planner;
         let (a, _) = plan(planner.as_mut(), &scene, &world, &mut Run::new(1));
         let (b, _) = plan(planner.as_mut(), &scene, &world, &mut Run::new(2));
@@ -175,7 +187,7 @@ fn best_cost_never_worsens_and_watching_changes_nothing() {
 fn an_observer_can_stop_the_run() {
     let scene = scenes::paper();
     let world = scenes::world(&scene);
-    for kind in ["pso", "pso-qp", "random-search"] {
+    for kind in kinds().iter().map(|k| k.name).filter(|k| !DETERMINISTIC.contains(k)) {
         let mut planner = build_str(kind, "").unwrap().planner;
         let mut observer = watch(kind, Detail::Progress, 3);
         let (plan, status) = plan(planner.as_mut(), &scene, &world, &mut Run::new(4).with_observer(&mut observer));

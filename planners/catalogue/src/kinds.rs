@@ -1,6 +1,8 @@
 //! The list of planners.
 
+use planner_ant_colony::AntColony;
 use planner_api::{Planner, SettingError};
+
 use planner_baseline::{RandomSearch, StraightLine, StraightLineSettings};
 use planner_genetic::{GridGa, VertexGa};
 use planner_grid_search::GridSearch;
@@ -153,6 +155,10 @@ pub fn kinds() -> &'static [Kind] {
             summary: "A* on cells that weighs length against the risk of the defenders' influence regions",
             source: "Wang & Zhu 2018, Computer Systems & Applications 27(1), 189-194",
             make: |settings| plain(settings, InfluenceAstar::new),
+            name: "ant-colony",
+            summary: "Ant System on a grid of cells, loops cut out of tours",
+            source: "Dorigo, Maniezzo & Colorni 1996, IEEE Trans. Systems, Man, and Cybernetics B 26(1), 29-41",
+            make: |settings| plain(settings, AntColony::new),
         },
     ];
     KINDS

@@ -88,22 +88,4 @@ impl Graph {
             visit(self.goal(), Length::real(*distance));
         }
     }
-
-    /// Writes the points of `chain` (nodes from start to goal) without those
-    /// between two equal moves and without repetition.
-    pub fn write_path(&self, chain: &[usize], path: &mut Vec<Point>) {
-        path.clear();
-        let delta = |a: usize, b: usize| {
-            let ((ac, ar), (bc, br)) = (self.grid.position(a), self.grid.position(b));
-            (bc.wrapping_sub(ac), br.wrapping_sub(ar))
-        };
-        let inner = 2..chain.len().saturating_sub(2);
-        for (i, &node) in chain.iter().enumerate() {
-            let p = self.point(node);
-            let passed = inner.contains(&i) && delta(chain[i - 1], node) == delta(node, chain[i + 1]);
-            if !passed && path.last() != Some(&p) {
-                path.push(p);
-            }
-        }
-    }
 }

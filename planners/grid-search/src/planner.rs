@@ -96,7 +96,8 @@ impl GridSearch {
             if self.search.reached.distance(goal) < plan.cost {
                 plan.cost = self.search.reached.distance(goal);
                 self.search.reached.write_chain(goal, &mut self.chain);
-                self.graph.write_path(&self.chain, &mut plan.path);
+                let cells = &self.chain[1..self.chain.len() - 1];
+                self.graph.grid.write_path(problem.start, cells, problem.goal, &mut plan.path);
             }
             self.report(run, plan);
         }

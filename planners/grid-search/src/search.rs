@@ -135,8 +135,7 @@ impl Search {
         graph.for_each_successor(node, |to, edge| {
             generated += 1;
             if self.reached.states[to] != CellState::Closed
-                && let Some((parent, length)) =
-                    self.method.link(graph, world, &self.reached, (node, to, edge), checks)
+                && let Some((parent, length)) = self.method.link(graph, world, &self.reached, (node, to, edge), checks)
             {
                 self.open(graph, to, parent, length);
             }
