@@ -109,7 +109,7 @@ fn the_same_seed_gives_the_same_plan_again_after_reset_and_in_a_new_planner() {
 fn seeds_matter_to_random_planners() {
     let scene = scenes::paper();
     let world = scenes::world(&scene);
-    for kind in ["pso", "random-search"] {
+    for kind in ["pso", "random-search", "grid-ga", "vertex-ga", "quantum-ga"] {
         let mut planner = build_str(kind, "").unwrap().planner;
         let (a, _) = plan(planner.as_mut(), &scene, &world, &mut Run::new(1));
         let (b, _) = plan(planner.as_mut(), &scene, &world, &mut Run::new(2));
@@ -148,6 +148,12 @@ impl Observer for Watch {
             let least = swarm.personal_costs.iter().copied().fold(f64::INFINITY, f64::min);
             assert_eq!(least, swarm.global_cost, "{name}: the global best is the best personal best");
         }
+        if let View::Population(population) = &frame.view {
+            assert_eq!(population.paths.len(), population.fitness.len(), "{name}");
+            assert!(population.fitness.iter().all(|f| f.is_finite() && *f >= 0.0), "{name}");
+            let ends = |path: &[Point]| (path[0], path[path.len() - 1]);
+            assert!(population.paths.iter().all(|p| ends(p) == ends(population.best)), "{name}");
+        }
         self.last = Some((frame.stage, frame.best_cost, frame.iteration, frame.evaluations));
         self.frames += 1;
         if self.frames == self.stop_after { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
@@ -175,7 +181,7 @@ fn best_cost_never_worsens_and_watching_changes_nothing() {
 fn an_observer_can_stop_the_run() {
     let scene = scenes::paper();
     let world = scenes::world(&scene);
-    for kind in ["pso", "pso-qp", "random-search"] {
+    for kind in ["pso", "pso-qp", "random-search", "grid-ga", "vertex-ga", "quantum-ga"] {
         let mut planner = build_str(kind, "").unwrap().planner;
         let mut observer = watch(kind, Detail::Progress, 3);
         let (plan, status) = plan(planner.as_mut(), &scene, &world, &mut Run::new(4).with_observer(&mut observer));
