@@ -160,6 +160,12 @@ impl Observer for Watch {
             let least = swarm.personal_costs.iter().copied().fold(f64::INFINITY, f64::min);
             assert_eq!(least, swarm.global_cost, "{name}: the global best is the best personal best");
         }
+        if let View::Population(population) = &frame.view {
+            assert_eq!(population.paths.len(), population.fitness.len(), "{name}");
+            assert!(population.fitness.iter().all(|f| f.is_finite() && *f >= 0.0), "{name}");
+            let ends = |path: &[Point]| (path[0], path[path.len() - 1]);
+            assert!(population.paths.iter().all(|p| ends(p) == ends(population.best)), "{name}");
+        }
         self.last = Some((frame.stage, frame.best_cost, frame.iteration, frame.evaluations));
         self.frames += 1;
         if self.frames == self.stop_after { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }

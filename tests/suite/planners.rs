@@ -19,6 +19,8 @@ pub fn planners() -> Vec<(String, Box<dyn Planner>)> {
         ("influence-astar, ring, pitch", "influence-astar", "heuristic = \"ring\"\nsearch_space = \"pitch\""),
         ("astar + qp", "astar", "refine = [\"qp\"]"),
         ("ant-colony, no elitists", "ant-colony", "elitists = 0.0\ndead_end = \"die\"\nalpha = 2.0"),
+        ("grid-ga + qp", "grid-ga", "cells_passed = \"genes\"\nadaptive = false\nrefine = [\"qp\"]"),
+        ("vertex-ga, length", "vertex-ga", "fitness = \"length\""),
         ("pso, ring", "pso", "topology = \"ring\"\nbounds = \"reflect\""),
     ] {
         let planner = build_str(kind, settings).unwrap_or_else(|e| panic!("{name}: {e}")).planner;

@@ -110,7 +110,7 @@ mod tests {
             }
             let genes = [0, 22, 59];
             assert_eq!(CellsPassed::Genes.count(&genes, cells), 3);
-            // Two diagonal steps, then (2, 2) to (9, 5): 7 + 3 grid lines, one corner, at (5.5, 3.5)'s middle none.
+            // Two diagonal steps, then (2, 2) to (9, 5): 7 + 3 grid lines, two of them at once in the corner (6, 4).
             assert_eq!(CellsPassed::Traversed.count(&genes, cells), 1 + 2 + (7 + 3 - 1));
         });
     }

@@ -170,3 +170,125 @@ impl Species for Tours<'_> {
         self.checks
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use env_model::{Scene, Shape, World};
+
+    use super::*;
+
+    /// A square of side 2 between start and goal, 1 from each.
+    fn square(fitness: VertexFitness, seed: u64) -> (Plan, Status) {
+        let world = World::new(&Scene {
+            name: "square".into(),
+            unit: "m".into(),
+            robot_radius: 0.0,
+            start: [-2.0, 0.0],
+            goal: [2.0, 0.0],
+            field: None,
+            obstacles: vec![Shape::Polygon(vec![[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]).into()],
+        })
+        .unwrap();
+        let problem = Problem::new(&world, Point::new(-2.0, 0.0), Point::new(2.0, 0.0)).unwrap();
+        let settings = VertexGaSettings { fitness, ..VertexGaSettings::default() };
+        VertexGa::new(settings).unwrap().plan(&problem, &mut Run::new(seed)).unwrap()
+    }
+
+    /// ε = 4.5e-9 of gap at each of four vertices.
+    const CLOSE: f64 = 1e-7;
+
+    #[test]
+    fn the_faithful_fitness_rewards_visits() {
+        // The shortest way visits two vertices: 2/(2 + 2√2) = 0.414. Three are worth 3/(4 + 2√2)
+        // = 0.439, once round 4/(6 + 2√2) = 0.453.
+        let cost = |visits: f64| (2.0 * visits - 2.0 + 2.0 * std::f64::consts::SQRT_2) / visits;
+        let mut rounds = 0;
+        for seed in 0..20 {
+            let (plan, status) = square(VertexFitness::Visits, seed);
+            let visits = plan.path.len() - 2;
+            assert!(status == Status::Solved && visits >= 3, "seed {seed}: {visits} vertices");
+            assert!((plan.cost - cost(visits as f64)).abs() < CLOSE, "seed {seed}: {}", plan.cost);
+            rounds += usize::from(visits == 4);
+        }
+        // Measured: 16; a population may settle on three.
+        assert!(rounds >= 12, "{rounds} of 20");
+    }
+
+    #[test]
+    fn with_length_as_fitness_the_shortest_way_wins() {
+        for seed in 0..10 {
+            let (plan, status) = square(VertexFitness::Length, seed);
+            assert_eq!((status, plan.path.len()), (Status::Solved, 4));
+            assert!((plan.cost - (2.0 + 2.0 * std::f64::consts::SQRT_2)).abs() < CLOSE, "seed {seed}");
+        }
+    }
+
+    #[test]
+    fn fitness_by_hand() {
+        let world = World::new(&Scene {
+            name: "open".into(),
+            unit: "m".into(),
+            robot_radius: 0.0,
+            start: [0.0, 0.0],
+            goal: [4.0, 0.0],
+            field: None,
+            obstacles: vec![Shape::Disc { centre: [2.0, 0.0], radius: 1.0 }.into()],
+        })
+        .unwrap();
+        let problem = Problem::new(&world, Point::new(0.0, 0.0), Point::new(4.0, 0.0)).unwrap();
+        let vertices = [Point::new(2.0, 3.0), Point::new(2.0, -3.0)];
+        let mut settings = VertexGaSettings::default();
+        for (fitness, visits) in [(VertexFitness::Visits, 1.0), (VertexFitness::Length, 0.0)] {
+            settings.fitness = fitness;
+            let (seen, unused) = (&mut Vec::new(), &mut Vec::new());
+            let mut tours =
+                Tours { settings: &settings, problem: &problem, vertices: &vertices, seen, unused, checks: 0 };
+            let merit = |v: f64| if visits > 0.0 { v } else { 1.0 };
+            let up = 2.0 * 13.0_f64.sqrt();
+            let close = |found: f64, expected: f64| assert!((found - expected).abs() < 1e-14, "{found}, {expected}");
+            close(tours.fitness(&[0, 1]), 10.0 * merit(1.0) / up);
+            close(tours.fitness(&[0, 0]), 0.1 * merit(0.0) / 4.0);
+            close(tours.fitness(&[2, 1]), 0.1 * merit(2.0) / (up + 6.0));
+            // The dearest of all paths through vertices is cheaper than one that visits none.
+            assert!(tours.cost(0.0) > tours.cost(0.1 / (up + 6.0)) && tours.cost(0.0).is_finite());
+        }
+    }
+
+    #[test]
+    fn chromosomes_name_no_vertex_twice_and_half_are_zero() {
+        let world = World::new(&Scene {
+            name: "none".into(),
+            unit: "m".into(),
+            robot_radius: 0.0,
+            start: [0.0, 0.0],
+            goal: [4.0, 0.0],
+            field: None,
+            obstacles: Vec::new(),
+        })
+        .unwrap();
+        let problem = Problem::new(&world, Point::new(0.0, 0.0), Point::new(4.0, 0.0)).unwrap();
+        let (settings, vertices) = (VertexGaSettings::default(), vec![Point::new(1.0, 1.0); 50]);
+        let (seen, unused) = (&mut Vec::new(), &mut Vec::new());
+        let mut tours = Tours { settings: &settings, problem: &problem, vertices: &vertices, seen, unused, checks: 0 };
+        let mut dice = Dice::new(1);
+        let mut zeros = 0;
+        let parents = Parents { fitness: [1.0; 2], level: crate::rates::Level { mean: 1.0, max: 1.0 }, generation: 0 };
+        for _ in 0..100 {
+            let mut children = [Vec::new(), Vec::new()];
+            for child in &mut children {
+                tours.draw(child, &mut dice);
+                zeros += child.iter().filter(|g| **g == 0).count();
+            }
+            tours.breed(&mut children, &parents, &mut dice);
+            for child in children {
+                let mut named: Vec<Gene> = child.into_iter().filter(|g| *g != 0).collect();
+                let count = named.len();
+                named.sort_unstable();
+                named.dedup();
+                assert!(named.len() == count && named.iter().all(|g| (1..=50).contains(g)));
+            }
+        }
+        // Binomial, n = 10 000, p = 1/2: standard deviation 50; five of them.
+        assert!(zeros.abs_diff(5000) <= 250, "{zeros}");
+    }
+}

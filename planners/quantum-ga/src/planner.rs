@@ -179,3 +179,82 @@ impl Planner for QuantumGa {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use env_model::{Obstacle, Scene};
+
+    use super::*;
+
+    /// 100 units from start to goal, discs between.
+    fn world(discs: &[(f64, f64, f64)]) -> World {
+        World::new(&Scene {
+            name: "quantum".into(),
+            unit: "m".into(),
+            robot_radius: 0.0,
+            start: [0.0, 0.0],
+            goal: [100.0, 0.0],
+            field: None,
+            obstacles: discs.iter().map(|(x, y, r)| Obstacle::disc(Point::new(*x, *y), *r)).collect(),
+        })
+        .unwrap()
+    }
+
+    fn plan(world: &World, seed: u64) -> (Plan, Status) {
+        let problem = Problem::new(world, Point::new(0.0, 0.0), Point::new(100.0, 0.0)).unwrap();
+        let mut planner = QuantumGa::new(QuantumGaSettings::default()).unwrap();
+        planner.plan(&problem, &mut Run::new(seed)).unwrap()
+    }
+
+    #[test]
+    fn strings_are_heights_highest_bit_first() {
+        let columns = Columns::new(Point::new(0.0, 0.0), Point::new(100.0, 0.0), 3);
+        let (o, i) = (false, true);
+        let (mut heights, mut path) = (Vec::new(), Vec::new());
+        QuantumGa::decode(&[o, o, i, o, i, i], 2, &columns, &mut heights, &mut path);
+        // H = 25: 0 is −25, 2 of 3 is 25/3, 3 is 25.
+        assert!(heights[0] == -25.0 && (heights[1] - 25.0 / 3.0).abs() < 1e-14 && heights[2] == 25.0);
+        assert_eq!((path.len(), path[1]), (5, Point::new(25.0, -25.0)));
+    }
+
+    #[test]
+    fn the_cost_is_that_of_the_2012_paper() {
+        let world = world(&[(50.0, 0.0, 10.0)]);
+        let columns = Columns::new(Point::new(0.0, 0.0), Point::new(100.0, 0.0), 1);
+        let settings = QuantumGaSettings { columns: 1, bits: 1, population: 1, ..QuantumGaSettings::default() };
+        let mut planner = QuantumGa::new(settings).unwrap();
+        planner.qubits = vec![Qubit::EVEN];
+        planner.observed = Bests { strings: vec![false], costs: vec![0.0] };
+        let mut run = Run::new(1);
+        planner.observe(0, &columns, &world, &mut ChaCha8Rng::seed_from_u64(1), &mut run);
+        // Either bit: 25 up or down half way, clear of the disc. 2·√(50² + 25²).
+        assert!((planner.observed.costs[0] - 2.0 * 3125.0_f64.sqrt()).abs() < 1e-12);
+        assert_eq!((run.spent.evaluations, run.spent.collision_checks), (1, 2));
+    }
+
+    #[test]
+    fn free_paths_come_near_the_optimum() {
+        // Round a disc half way: two tangents and the arc between, 102.92.
+        let (d, r) = (50.0_f64, 12.0_f64);
+        let optimum = 2.0 * (d * d - r * r).sqrt() + 2.0 * r * libm::asin(r / d);
+        let world = world(&[(d, 0.0, r)]);
+        let mut lengths: Vec<f64> = (0..30)
+            .map(|seed| {
+                let (plan, status) = plan(&world, seed);
+                assert_eq!(status, Status::Solved, "seed {seed}");
+                assert_eq!(plan.cost, env_model::path_length(&plan.path), "nothing collides");
+                plan.cost / optimum
+            })
+            .collect();
+        lengths.sort_by(f64::total_cmp);
+        // Measured: 1.012 and 1.023. Six columns alone cost 0.6 %: nothing is shorter.
+        assert!(lengths[0] >= 1.0 && lengths[15] < 1.02 && lengths[29] < 1.035, "{lengths:?}");
+    }
+
+    #[test]
+    fn the_same_seed_gives_the_same_bits() {
+        let world = world(&[(30.0, 5.0, 12.0), (70.0, -5.0, 12.0)]);
+        assert_eq!(plan(&world, 7), plan(&world, 7));
+        assert_ne!(plan(&world, 7).0.path, plan(&world, 8).0.path);
+    }
+}
