@@ -7,18 +7,27 @@ use crate::scenes;
 
 #[test]
 fn a_second_call_allocates_nothing() {
-    for kind in ["straight-line", "random-search", "pso", "tangent"] {
+    for (kind, settings) in [
+        ("straight-line", ""),
+        ("random-search", ""),
+        ("pso", ""),
+        ("pso", "topology = \"von-neumann\""),
+        ("pso", "rule = \"quantum\""),
+        ("pso", "rule = \"spso-2011\""),
+        ("pso", "rule = \"comprehensive\""),
+        ("tangent", ""),
+    ] {
         for scene in scenes::all() {
             let world = scenes::world(&scene);
             let problem = Problem::new(&world, scene.start(), scene.goal()).unwrap();
-            let mut planner = build_str(kind, "").unwrap().planner;
+            let mut planner = build_str(kind, settings).unwrap().planner;
             let mut plan = Plan::new();
             let mut call = || planner.plan_into(&problem, &mut Run::new(5), &mut plan).unwrap();
             call();
             let count = allocation_counter::measure(|| {
                 call();
             });
-            assert_eq!(count.count_total, 0, "{kind} in {}", scene.name);
+            assert_eq!(count.count_total, 0, "{kind} {settings} in {}", scene.name);
         }
     }
 }

@@ -109,11 +109,17 @@ fn the_same_seed_gives_the_same_plan_again_after_reset_and_in_a_new_planner() {
 fn seeds_matter_to_random_planners() {
     let scene = scenes::paper();
     let world = scenes::world(&scene);
-    for kind in ["pso", "random-search"] {
-        let mut planner = build_str(kind, "").unwrap().planner;
+    for (kind, settings) in [
+        ("pso", ""),
+        ("pso", "rule = \"quantum\""),
+        ("pso", "rule = \"spso-2011\""),
+        ("pso", "rule = \"comprehensive\""),
+        ("random-search", ""),
+    ] {
+        let mut planner = build_str(kind, settings).unwrap().planner;
         let (a, _) = plan(planner.as_mut(), &scene, &world, &mut Run::new(1));
         let (b, _) = plan(planner.as_mut(), &scene, &world, &mut Run::new(2));
-        assert_ne!(a.path, b.path, "{kind}");
+        assert_ne!(a.path, b.path, "{kind} {settings}");
     }
 }
 

@@ -16,6 +16,10 @@ pub fn planners() -> Vec<(String, Box<dyn Planner>)> {
         ("tangent + smooth qp", "tangent", "refine = [{ kind = \"qp\", objective = \"smooth\" }]"),
         ("pso-qp, final class", "pso-qp", "classes = \"final\""),
         ("pso, ring", "pso", "topology = \"ring\"\nbounds = \"reflect\""),
+        ("pso, von Neumann", "pso", "rule = \"constriction\"\ntopology = \"von-neumann\""),
+        ("pso, quantum", "pso", "rule = \"quantum\""),
+        ("pso, spso-2011", "pso", "rule = \"spso-2011\""),
+        ("pso, comprehensive", "pso", "rule = \"comprehensive\""),
     ] {
         let planner = build_str(kind, settings).unwrap_or_else(|e| panic!("{name}: {e}")).planner;
         planners.push((name.to_owned(), planner));
