@@ -34,13 +34,13 @@ pub fn r2(k: usize, row: usize, particle: usize) -> f64 {
 /// Makes three updates from `START` with `velocities`, the first of them being
 /// iteration `first`, and checks where the particles are after each.
 pub fn check(
-    settings: Settings,
+    settings: &Settings,
     rule: &mut dyn UpdateRule,
     velocities: Positions,
     first: u64,
     expected: [Positions; 3],
 ) {
-    let settings = Settings { particles: 3, columns: 2, ..settings }.filled();
+    let settings = Settings { particles: 3, columns: 2, ..settings.clone() };
     let scene = Scene::from_toml("empty", "name = \"empty\"\nstart = [0.0, 0.0]\ngoal = [12.0, 0.0]").unwrap();
     let world = World::new(&scene).unwrap();
     let columns = Columns::new(Point::new(0.0, 0.0), Point::new(12.0, 0.0), 2);

@@ -167,7 +167,7 @@ mod tests {
             ],
         ];
         let velocities = [[0.5, -0.5], [-1.0, 0.25], [0.0, 1.0]];
-        check(settings(), &mut Begun(learning(&[1, 2, 1, 0, 0, 2])), velocities, 1, expected);
+        check(&settings(), &mut Begun(learning(&[1, 2, 1, 0, 0, 2])), velocities, 1, expected);
     }
 
     #[test]

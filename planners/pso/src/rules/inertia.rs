@@ -93,7 +93,7 @@ mod tests {
             [[0.4625, 1.75], [1.0, 1.5], [0.5, 2.0375]],
             [[0.485, 2.0375], [1.0, 1.5], [0.725, 0.7275]],
         ];
-        check(settings.clone(), &mut Inertia::new(&settings), [[0.0; 2]; 3], 0, expected);
+        check(&settings, &mut Inertia::new(&settings), [[0.0; 2]; 3], 0, expected);
     }
 
     #[test]
@@ -109,6 +109,6 @@ mod tests {
                 [1.1818766173066837, 1.491672348905789],
             ],
         ];
-        check(settings.clone(), &mut Inertia::new(&settings), [[0.0; 2]; 3], 0, expected);
+        check(&settings, &mut Inertia::new(&settings), [[0.0; 2]; 3], 0, expected);
     }
 }

@@ -84,7 +84,7 @@ mod tests {
                 [1.0952925013739798, 0.7262213027693102],
             ],
         ];
-        check(settings.clone(), &mut Quantum::new(&settings), [[0.0; 2]; 3], 0, expected);
+        check(&settings, &mut Quantum::new(&settings), [[0.0; 2]; 3], 0, expected);
     }
 
     #[test]

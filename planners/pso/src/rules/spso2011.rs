@@ -145,7 +145,7 @@ mod tests {
             ],
         ];
         let velocities = [[0.5, -0.5], [-1.0, 0.25], [0.0, 2.0]];
-        check(settings.clone(), &mut Spso2011::new(&settings), velocities, 0, expected);
+        check(&settings, &mut Spso2011::new(&settings), velocities, 0, expected);
     }
 
     #[test]
