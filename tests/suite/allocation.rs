@@ -12,14 +12,14 @@ fn a_second_call_allocates_nothing() {
         for scene in scenes::all() {
             let world = scenes::world(&scene);
             let problem = Problem::new(&world, scene.start(), scene.goal()).unwrap();
-            let mut planner = build_str(kind, "").unwrap().planner;
+            let mut planner = build_str(kind, settings).unwrap().planner;
             let mut plan = Plan::new();
             let mut call = || planner.plan_into(&problem, &mut Run::new(5), &mut plan).unwrap();
             call();
             let count = allocation_counter::measure(|| {
                 call();
             });
-            assert_eq!(count.count_total, 0, "{kind} in {}", scene.name);
+            assert_eq!(count.count_total, 0, "{kind} {settings} in {}", scene.name);
         }
     }
 }

@@ -125,7 +125,7 @@ fn seeds_matter_to_random_planners() {
         let mut planner = build_str(kind, "").unwrap().planner;
         let (a, _) = plan(planner.as_mut(), &scene, &world, &mut Run::new(1));
         let (b, _) = plan(planner.as_mut(), &scene, &world, &mut Run::new(2));
-        assert_ne!(a.path, b.path, "{kind}");
+        assert_ne!(a.path, b.path, "{kind} {settings}");
     }
 }
 

@@ -22,6 +22,10 @@ pub fn planners() -> Vec<(String, Box<dyn Planner>)> {
         ("grid-ga + qp", "grid-ga", "cells_passed = \"genes\"\nadaptive = false\nrefine = [\"qp\"]"),
         ("vertex-ga, length", "vertex-ga", "fitness = \"length\""),
         ("pso, ring", "pso", "topology = \"ring\"\nbounds = \"reflect\""),
+        ("pso, von Neumann", "pso", "rule = \"constriction\"\ntopology = \"von-neumann\""),
+        ("pso, quantum", "pso", "rule = \"quantum\""),
+        ("pso, spso-2011", "pso", "rule = \"spso-2011\""),
+        ("pso, comprehensive", "pso", "rule = \"comprehensive\""),
     ] {
         let planner = build_str(kind, settings).unwrap_or_else(|e| panic!("{name}: {e}")).planner;
         planners.push((name.to_owned(), planner));

@@ -11,7 +11,8 @@ use crate::swarm::{Ground, Swarm};
 /// Where particles may be and how fast they may fly.
 #[derive(Debug, Clone, Copy)]
 pub struct Border {
-    bounds: Bounds,
+    /// What happens at the border.
+    pub bounds: Bounds,
     /// H, scene units.
     pub half_width: f64,
     /// Largest speed a dimension, scene units an iteration; may be +∞.

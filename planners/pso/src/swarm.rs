@@ -153,7 +153,8 @@ impl Swarm {
         self.evaluate(ground, motion);
     }
 
-    fn evaluate(&mut self, ground: Ground<'_>, motion: Option<(Weights, Border)>) {
+    /// Evaluates, on the way moving the particles if told to, and updates the bests.
+    pub fn evaluate(&mut self, ground: Ground<'_>, motion: Option<(Weights, Border)>) {
         if ground.terrain.only_discs() {
             ground.arch.dispatch(Pass::<false> { swarm: self, ground, motion });
         } else {

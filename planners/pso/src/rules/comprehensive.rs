@@ -1,10 +1,10 @@
 //! Comprehensive learning: every dimension learns from its own exemplar.
 //!
-//! v_d ← w v_d + c r_d (pbest_{f(d)},d − x_d), x ← x + v, with c = 1.49445, w from
-//! 0.9 to 0.4 and |v_d| ≤ 0.2 of the range. Particle i's exemplar f(d) is the
-//! better of two others drawn at random, with probability
+//! v ← w v + c r (pbest of f(d) − x), x ← x + v in each dimension d, with r uniform
+//! on [0, 1), c = 1.49445, w from 0.9 to 0.4 and |v| ≤ 0.2 of the range. Particle
+//! i's exemplar f(d) is the better of two others drawn at random, with probability
 //!
-//! Pc_i = 0.05 + 0.45 (e^{10(i−1)/(N−1)} − 1)/(e^{10} − 1), i = 1 … N,
+//! Pcᵢ = 0.05 + 0.45 (e^(10 (i−1)/(N−1)) − 1)/(e^10 − 1), i = 1 … N,
 //!
 //! and the particle itself otherwise; where all came out its own, one dimension at
 //! random gets another's. New exemplars are drawn when the personal best has not
@@ -127,4 +127,95 @@ fn tournament(costs: &[f64], i: usize, next: &mut dyn FnMut() -> f64) -> u32 {
     };
     let (a, b) = (other(), other());
     better(costs, a, b) as u32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::by_hand::check;
+    use super::*;
+    use crate::choices::Rule;
+
+    fn settings() -> Settings {
+        Settings { rule: Rule::Comprehensive, iterations: 5, ..Settings::default() }.filled()
+    }
+
+    /// A rule whose particles learn from these.
+    fn learning(exemplars: &[u32]) -> Comprehensive {
+        Comprehensive { exemplars: exemplars.to_vec(), stale: vec![0; 3], ..Comprehensive::new(&settings()) }
+    }
+
+    /// Begun already: keeps the exemplars it is given.
+    struct Begun(Comprehensive);
+
+    impl UpdateRule for Begun {
+        fn steer(&mut self, swarm: &mut Swarm, t: u64) -> Option<Weights> {
+            self.0.steer(swarm, t)
+        }
+    }
+
+    #[test]
+    fn three_updates_by_hand() {
+        // Iterations 1 to 3 of 5: w = 0.775, 0.65, 0.525. Particle 0, height 0 learns from particle 1:
+        // v = 0.775·0.5 + 1.49445·1/8·(1 − 2) = 0.3875 − 0.18680625 = 0.20069375.
+        let expected = [
+            [[2.20069375, -0.546871875], [0.225, 0.3], [-1.3, 1.275]],
+            [[1.00069375, 0.653128125], [-0.27875, -0.9], [-0.1, 1.77875]],
+            [
+                [-0.19930625, 1.7036745277734373],
+                [-0.4491151015625, -0.6595978775976563],
+                [0.9412329436718752, 2.04321875],
+            ],
+        ];
+        let velocities = [[0.5, -0.5], [-1.0, 0.25], [0.0, 1.0]];
+        check(&settings(), &mut Begun(learning(&[1, 2, 1, 0, 0, 2])), velocities, 1, expected);
+    }
+
+    #[test]
+    fn learning_probability_rises_with_the_rank() {
+        // Of five: 0.05, …, in the middle 0.05 + 0.45 (e⁵ − 1)/(e¹⁰ − 1) = 0.05 + 0.45/(e⁵ + 1), …, 0.5.
+        assert_eq!(learning_probability(0, 5), 0.05);
+        assert!((learning_probability(2, 5) - 0.053_011_782_916).abs() < 1e-12);
+        assert!((learning_probability(4, 5) - 0.5).abs() < 1e-15);
+        assert_eq!(learning_probability(0, 1), 0.05);
+    }
+
+    /// What particle `i` of these costs learns from with the given random numbers.
+    fn chosen<const N: usize>(i: usize, numbers: [f64; N]) -> [u32; 2] {
+        let (mut exemplars, mut numbers) = ([9; 2], numbers.into_iter());
+        choose(&[3.0, 1.0, 2.0, 2.0], i, &mut exemplars, &mut || numbers.next().expect("enough numbers"));
+        assert_eq!(numbers.next(), None, "numbers are left");
+        exemplars
+    }
+
+    #[test]
+    fn exemplars_by_hand() {
+        // Pc of the first is 0.05. 0.04: a tournament of ⌊0.9·3⌋ = 2 and ⌊0.5·3⌋ = 1 among 1, 2, 3,
+        // which is 3 against 2, equals; the lower wins. 0.06: itself.
+        assert_eq!(chosen(0, [0.04, 0.9, 0.5, 0.06]), [2, 0]);
+        // All its own: height ⌊0.7·2⌋ = 1 gets the winner of 1 (cost 1) against 2.
+        assert_eq!(chosen(0, [0.5, 0.5, 0.7, 0.0, 0.4]), [0, 1]);
+        // Pc of the last is 0.5; its others are 0, 1, 2: 0 against 2, and 1 against 1.
+        assert_eq!(chosen(3, [0.4, 0.1, 0.9, 0.4, 0.5, 0.5]), [2, 1]);
+        let mut alone = [9];
+        choose(&[1.0], 0, &mut alone, &mut || unreachable!());
+        assert_eq!(alone, [0]);
+    }
+
+    #[test]
+    fn exemplars_are_drawn_anew_after_the_gap() {
+        let mut rule = learning(&[9; 6]);
+        let mut swarm = Swarm::default();
+        (swarm.particles, swarm.dims) = (3, 2);
+        swarm.choices.seed(&mut 1, 1);
+        for (cost, best) in [(2.0, 1.0), (1.0, 1.0), (f64::INFINITY, 1.0)] {
+            swarm.cost.push(cost);
+            swarm.best_cost.push(best);
+        }
+        // The first has not improved, the second has, the third was outside and not evaluated.
+        swarm.improved = vec![false, true, false];
+        rule.stale = vec![6, 6, 6];
+        rule.refresh(&mut swarm, 20);
+        assert_eq!(rule.stale, [0, 0, 6]);
+        assert!(rule.exemplars[..2].iter().all(|&f| f < 3) && rule.exemplars[2..] == [9; 4]);
+    }
 }

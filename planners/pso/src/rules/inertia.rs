@@ -77,3 +77,38 @@ impl UpdateRule for Inertia {
         Some(Weights { w: self.inertia.at(t, self.iterations), ..self.weights })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::by_hand::check;
+    use super::*;
+
+    #[test]
+    fn three_updates_by_hand() {
+        let settings = Settings { iterations: 3, ..Settings::default() }.filled();
+        // w = 0.9, 0.65, 0.4. Particle 0, height 0: r2 = 1/8, pbest = x = 2, gbest = 1:
+        // v = 2·1/8·(1 − 2) = −0.25. Particle 2: v = 2·7/8·(1 + 2.5) is cut to H/2 = 1.5.
+        let expected = [
+            [[1.75, 0.25], [1.0, 1.5], [-1.0, 0.75]],
+            [[0.4625, 1.75], [1.0, 1.5], [0.5, 2.0375]],
+            [[0.485, 2.0375], [1.0, 1.5], [0.725, 0.7275]],
+        ];
+        check(&settings, &mut Inertia::new(&settings), [[0.0; 2]; 3], 0, expected);
+    }
+
+    #[test]
+    fn three_updates_with_constriction_by_hand() {
+        let settings = Settings { rule: Rule::Constriction, iterations: 3, ..Settings::default() }.filled();
+        // As above with 1.49618: v = 1.49618·1/8·(1 − 2) = −0.1870225.
+        let expected = [
+            [[1.8129775, -0.0648875], [1.0, 1.5], [-1.0, 0.6870225]],
+            [[0.7642179725375, 1.4351125], [1.0, 1.5], [0.5, 1.7357820274625]],
+            [
+                [-0.00116673060463246, 2.5298125],
+                [0.6913241903822622, 1.48786457753125],
+                [1.1818766173066837, 1.491672348905789],
+            ],
+        ];
+        check(&settings, &mut Inertia::new(&settings), [[0.0; 2]; 3], 0, expected);
+    }
+}

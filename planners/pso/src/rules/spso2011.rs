@@ -109,3 +109,83 @@ fn normals(r1: f64, r2: f64) -> [f64; 2] {
 fn norm(vector: &[f64]) -> f64 {
     vector.iter().map(|v| v * v).sum::<f64>().sqrt()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::by_hand::check;
+    use super::*;
+    use crate::choices::{Bounds, Rule, Topology};
+    use crate::lanes::Lanes;
+
+    #[test]
+    fn three_updates_by_hand() {
+        let topology = Some(Topology::Global);
+        let settings = Settings { rule: Rule::Spso2011, topology, iterations: 3, ..Settings::default() }.filled();
+        // w = 0.721348, c = 1.193147. Particle 0: p = x = (2, −1), l = (1, 1.5), so that
+        // G − x = c (l − x)/3 = (−0.397716, 0.994289), of length 1.070874; r1 = 3/8 of it is
+        // 0.401578, in direction 2π/8 (the first pair's second number; in two dimensions its
+        // first cancels out): (0.283958, 0.283958). With v = (0.5, −0.5):
+        // v = (0.360674 − 0.397716 + 0.283958, −0.360674 + 0.994289 + 0.283958) = (0.246916, 0.917573).
+        // Particle 1 leads itself and sits on its best: G = x, and v = w v.
+        let expected = [
+            [
+                [2.2469186024016063, -0.08242387405627238],
+                [0.2786524795555183, 1.6803368801111205],
+                [-0.4681927646172186, 1.7006085763460996],
+            ],
+            [
+                [1.9291135857145472, 0.6078745615080822],
+                [0.18864711441523685, 2.0909716863673906],
+                [1.5292781213605824, 2.434787832335999],
+            ],
+            [
+                [1.2022706164699166, 1.4606319435832797],
+                [0.7665394730291185, 1.8758381833313411],
+                [1.5394163752175087, 2.726416358452016],
+            ],
+        ];
+        let velocities = [[0.5, -0.5], [-1.0, 0.25], [0.0, 2.0]];
+        check(&settings, &mut Spso2011::new(&settings), velocities, 0, expected);
+    }
+
+    #[test]
+    fn first_move_stays_inside() {
+        let settings = Settings { rule: Rule::Spso2011, ..Settings::default() }.filled();
+        let mut swarm = Swarm::default();
+        swarm.rng.seed(&mut 3, 8);
+        swarm.x.resize(800, 0.0);
+        swarm.v.resize(800, 0.0);
+        for (i, x) in swarm.x.iter_mut().enumerate() {
+            *x = 3.0 - 6.0 * (i % 8) as f64 / 7.0;
+        }
+        let border = Border { bounds: Bounds::Rebound, half_width: 3.0, max_speed: f64::INFINITY };
+        Spso2011::new(&settings).begin(&mut swarm, border);
+        let landed: Vec<f64> = swarm.x.iter().zip(swarm.v.iter()).map(|(x, v)| x + v).collect();
+        assert!(landed.iter().all(|y| y.abs() <= 3.0));
+        // Uniform on [−3, 3): the mean of 800 has a standard error of 0.061; five of them.
+        assert!(landed.iter().sum::<f64>().abs() / 800.0 < 0.31);
+    }
+
+    #[test]
+    fn normal_variates_are_standard_and_uncorrelated() {
+        let mut generator = Lanes::default();
+        generator.seed(&mut 11, 1);
+        let n = 100_000;
+        let (mut sums, mut squares, mut product) = ([0.0; 2], [0.0; 2], 0.0);
+        for _ in 0..n {
+            let pair = normals(generator.one(), generator.one());
+            product += pair[0] * pair[1];
+            for k in 0..2 {
+                sums[k] += pair[k];
+                squares[k] += pair[k] * pair[k];
+            }
+        }
+        // Standard errors of mean, mean product and mean square: 0.0032, 0.0032, 0.0045; five of them.
+        let n = f64::from(n);
+        assert!((product / n).abs() < 0.016);
+        for k in 0..2 {
+            assert!((sums[k] / n).abs() < 0.016 && (squares[k] / n - 1.0).abs() < 0.023);
+        }
+        assert_eq!(normals(0.0, 0.3), [0.0; 2]);
+    }
+}
