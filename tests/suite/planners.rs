@@ -15,6 +15,8 @@ pub fn planners() -> Vec<(String, Box<dyn Planner>)> {
         ("straight-line + qp", "straight-line", "refine = [\"qp\"]"),
         ("tangent + smooth qp", "tangent", "refine = [{ kind = \"qp\", objective = \"smooth\" }]"),
         ("pso-qp, final class", "pso-qp", "classes = \"final\""),
+        ("potential-field, Ge & Cui + qp", "potential-field", "repulsion = \"ge-cui\"\nrefine = [\"qp\"]"),
+        ("neural + qp", "neural", "cells = 60\nrefine = [\"qp\"]"),
         ("pso, ring", "pso", "topology = \"ring\"\nbounds = \"reflect\""),
     ] {
         let planner = build_str(kind, settings).unwrap_or_else(|e| panic!("{name}: {e}")).planner;
