@@ -21,6 +21,8 @@ pub fn planners() -> Vec<(String, Box<dyn Planner>)> {
         ("ant-colony, no elitists", "ant-colony", "elitists = 0.0\ndead_end = \"die\"\nalpha = 2.0"),
         ("grid-ga + qp", "grid-ga", "cells_passed = \"genes\"\nadaptive = false\nrefine = [\"qp\"]"),
         ("vertex-ga, length", "vertex-ga", "fitness = \"length\""),
+        ("potential-field, Ge & Cui + qp", "potential-field", "repulsion = \"ge-cui\"\nrefine = [\"qp\"]"),
+        ("neural + qp", "neural", "cells = 60\nrefine = [\"qp\"]"),
         ("pso, ring", "pso", "topology = \"ring\"\nbounds = \"reflect\""),
         ("pso, von Neumann", "pso", "rule = \"constriction\"\ntopology = \"von-neumann\""),
         ("pso, quantum", "pso", "rule = \"quantum\""),

@@ -23,7 +23,8 @@ pub struct Plan {
     /// Work done.
     pub counters: Counters,
     /// Named parts of the planner's own objective, e.g. `("length", L)` and
-    /// `("risk", W)`; empty where the cost has no parts.
+    /// `("risk", W)`; empty where the cost has no parts. Without a path, a descent
+    /// that got stuck says where: `("stuck_x", x)`, `("stuck_y", y)`, scene units.
     pub terms: Vec<(&'static str, f64)>,
     /// Other candidate paths, which refinement may use; they may collide.
     pub candidates: Candidates,

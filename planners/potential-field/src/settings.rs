@@ -35,8 +35,8 @@ pub struct PotentialFieldSettings {
     pub conic_distance: f64,
     /// `"khatib"` or `"ge-cui"`. Default `"khatib"`.
     pub repulsion: Repulsion,
-    /// η, dimensionless, ≥ 0: U in units of ξ, ρ in units of ρ0. Default 0.01,
-    /// with which repulsion balances the pull of a far goal at ρ = 0.2 ρ0.
+    /// η, dimensionless, ≥ 0; see the crate for its units. Default 0.1,
+    /// with which repulsion balances the pull of a far goal at ρ = 0.39 ρ0.
     pub repulsion_gain: f64,
     /// Length of a step, as a fraction of the extent's diagonal; 0 < step ≤ 0.1.
     /// The goal is reached when it is one free step away. Default 0.002.
@@ -58,7 +58,7 @@ impl Default for PotentialFieldSettings {
             attraction_gain: 1.0,
             conic_distance: 1.0,
             repulsion: Repulsion::Khatib,
-            repulsion_gain: 0.01,
+            repulsion_gain: 0.1,
             step: 0.002,
             steps: 5000,
             window: 100,
