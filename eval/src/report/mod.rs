@@ -30,7 +30,7 @@ use scene_section::Extent;
 use crate::results::{Manifest, Results, SceneResult};
 
 /// Scenes shown with every figure.
-const FULL: usize = 3;
+pub const FULL: usize = 3;
 /// Scenes beyond these that get small pictures; the rest have their tables alone.
 const SMALL: usize = 24;
 

@@ -27,6 +27,8 @@ pub fn run(scene: &str, planner: &str, repeat: u32, length: Option<f64>) -> RunR
         time_us: 12.5,
         cpu_us: 12.0,
         error: None,
+        cost: length,
+        terms: Vec::new(),
         path,
         progress: Vec::new(),
     }
@@ -77,6 +79,7 @@ fn results(planners: &[&str], scenes: &[&str], repeats: u32) -> Results {
         planners: planners.iter().map(planner).collect(),
         scenes: scenes.iter().map(|s| SceneResult { scene: scene(s), optimum: optimum.clone() }).collect(),
         runs,
+        snapshots: Vec::new(),
         manifest: Manifest { version: "0.1.0".into(), jobs: 1, cores: 2, ..Manifest::default() },
     }
 }
