@@ -53,7 +53,7 @@ struct Demo<'a> {
 impl Demo<'_> {
     /// A planner with one run along `path`, and its snapshot of `view`.
     fn add(&mut self, label: &str, path: &[Point], terms: &[(&str, f64)], view: Option<View<'_>>, generations: usize) {
-        let valid = self.world.path_free(path);
+        let valid = !path.is_empty() && self.world.path_free(path);
         let length = path_length(path);
         self.results.planners.push(PlannerInfo { label: label.into(), kind: "demo".into(), settings: String::new() });
         self.results.runs.push(RunRecord {
@@ -106,7 +106,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let scene = pitch();
     let world = World::new(&scene)?;
     let (a, b) = (scene.start(), scene.goal());
-    let path = vec![a, Point::new(-5.0, -8.0), Point::new(20.0, -6.0), b];
+    let path = vec![a, Point::new(-20.0, -14.0), Point::new(-5.0, -12.0), Point::new(20.0, -6.0), b];
     let results = Results {
         name: "pictures".into(),
         seed: 1,

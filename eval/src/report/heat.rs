@@ -2,7 +2,7 @@
 //!
 //! The colours are every 8.2th of cividis, perceptually uniform and nearly the same to
 //! viewers with and without colour-vision deficiency, on light and dark ground alike: Nuñez,
-//! Anderton & Renslow, *PLoS ONE* 13(7) (2018) e0199239, doi:10.1371/journal.pone.0199239.
+//! Anderton & Renslow, `PLoS` ONE 13(7) (2018) e0199239, doi:10.1371/journal.pone.0199239.
 
 use std::fmt::Write as _;
 
@@ -113,9 +113,14 @@ pub fn bar(heat: &Heat, name: &str, top: f64) -> String {
     out + "</g>"
 }
 
-/// A number of the bar: powers of ten beyond four digits as such.
+/// A number of the bar, three significant digits: powers of ten as such where they are large or small.
 pub fn number(v: f64) -> String {
-    format::power(v).unwrap_or_else(|| format::significant(v, 3))
+    let power = 10f64.powf(v.abs().log10().floor());
+    match (format::power(v), format::power(power)) {
+        (Some(whole), _) => whole,
+        (None, Some(scale)) => format!("{} × {scale}", format::significant(v / power, 3)),
+        (None, None) => format::significant(v, 3),
+    }
 }
 
 #[cfg(test)]
@@ -129,9 +134,15 @@ mod tests {
     }
 
     #[test]
+    fn numbers_beyond_four_digits_are_powers() {
+        let shown = [0.0, 120.0, 0.0123, 1e-12, 8.07e-45, -2.5e7, 9_999.0].map(number);
+        assert_eq!(shown, ["0", "120", "0.0123", "10⁻¹²", "8.07 × 10⁻⁴⁵", "−2.5 × 10⁷", "10\u{202f}000"]);
+    }
+
+    #[test]
     fn equal_neighbours_are_one_line() {
         let mesh = Mesh { min: [0.0, 0.0], size: 1.0, columns: 4, rows: 2, every: 1 };
-        let levels = vec![0, 0, 254, 254, 0, NO_LEVEL, NO_LEVEL, 254];
+        let levels = [0, 0, 254, 254, 0, NO_LEVEL, NO_LEVEL, 254];
         let mut runs = Vec::new();
         let key = |cell: usize| Some(levels[cell]).filter(|l| *l != NO_LEVEL);
         for_each_run(&mesh, key, |level, column, row, length| runs.push((level, column, row, length)));

@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
-use env_model::Point;
+use env_model::{Point, Scene};
 use minijinja::{Value, context};
 
 use super::backdrop::{ground, numbers};
@@ -19,6 +19,12 @@ use crate::format;
 use crate::results::RunRecord;
 use crate::snapshot::{CellMark, Heat, Line, Mesh, Snapshot, Spot, State, Tree};
 
+/// Two stripes of the hatching, and the ends of their neighbours, in a square of 5.
+const STRIPES: &str = "M-1 1L1 -1M0 5L5 0M4 6L6 4";
+/// The same for a legend's key.
+const STRIPED_KEY: &str = "M8 7L15 0M8 14L22 0M15 14L28 1M22 14L28 8";
+/// Trees of more nodes are drawn with thin lines.
+const DENSE: usize = 2_000;
 /// Cells smaller than this, in picture units, have no grid lines.
 const VISIBLE: f64 = 5.0;
 
@@ -34,7 +40,7 @@ fn figure(stage: &Stage<'_>, snapshot: &Snapshot, index: usize, runs: &[&RunReco
     let drawing = pen.drawing();
     let (scene, camera) = (&stage.scene.scene, &stage.camera);
     let backdrop = ground(scene, camera, id)
-        + &clipped(&format!("{id}-u"), camera, &drawing.below)
+        + &clipped(&format!("{id}-u"), camera, &(drawing.below + &edge(scene, camera)))
         + &(stage.obstacles)(id)
         + &numbers(scene, camera, t);
     let foot = match &drawing.heat {
@@ -63,6 +69,17 @@ fn figure(stage: &Stage<'_>, snapshot: &Snapshot, index: usize, runs: &[&RunReco
         .collect();
     let rows: Vec<Value> = rows.into_iter().map(|(name, value)| context! { name, value }).collect();
     context! { svg => Value::from_safe_string(picture(scene, camera, t, &what)), text, keys, rows, stage => snapshot.stage.as_str() }
+}
+
+/// The field's border once more, over what may hide it.
+fn edge(scene: &Scene, camera: &Camera) -> String {
+    let corner = |[x, y]: [f64; 2]| Point::new(x, y);
+    let border = |field: env_model::scene::Field| {
+        let ([x0, y0], [x1, y1]) = (field.min, field.max);
+        let round = [[x0, y0], [x1, y0], [x1, y1], [x0, y1], [x0, y0]].map(corner);
+        format!(r#"<path class="edge" d="{}"/>"#, polyline(camera, &round))
+    };
+    scene.field.map(border).unwrap_or_default()
 }
 
 /// A drawing under way.
@@ -115,7 +132,7 @@ impl<'a> Pen<'a> {
             }
             State::Trees(trees) => self.trees(&mut d, trees),
             State::Population { paths, mesh, best, total } => {
-                self.population(&mut d, paths, mesh.as_ref(), best, *total)
+                self.population(&mut d, paths, mesh.as_ref(), best, *total);
             }
             State::Forces { mesh, directions, trail, stuck } => self.forces(&mut d, mesh, directions, trail, *stuck),
         }
@@ -244,35 +261,15 @@ impl<'a> Pen<'a> {
             self.heat(d, heat, mesh);
         }
         self.grid(d, mesh);
-        for (mark, key, swatch) in [
-            (CellMark::Blocked, "own_blocked", r#"<rect class="hatch" x="11" y="0" width="14" height="14"/>"#),
-            (
-                CellMark::Closed,
-                "own_closed",
-                r#"<path class="closed" d="M12 7h0M24 7h0"/><path class="closed core" d="M12 7h0M24 7h0"/>"#,
-            ),
-            (
-                CellMark::Open,
-                "own_open",
-                r#"<path class="open" d="M12 7h0M24 7h0"/><path class="open core" d="M12 7h0M24 7h0"/>"#,
-            ),
-        ] {
-            let count = marks.iter().filter(|b| CellMark::from_byte(**b) == mark).count();
-            if count == 0 {
-                continue;
+        for (mark, key) in
+            [(CellMark::Blocked, "own_blocked"), (CellMark::Closed, "own_closed"), (CellMark::Open, "own_open")]
+        {
+            let is = |byte: &&u8| CellMark::from_byte(**byte) == mark;
+            let count = marks.iter().filter(is).count();
+            if count > 0 {
+                self.mark(d, mesh, mark, |cell| marks.get(cell).filter(is).map(|_| ()), t.get(key));
+                self.row(d, key, format::count(count as f64));
             }
-            let has = |cell: usize| marks.get(cell).filter(|b| CellMark::from_byte(**b) == mark).map(|_| ());
-            if mark == CellMark::Blocked {
-                self.hatch(d, mesh, has);
-                d.key(
-                    &format!(r#"<rect class="hatch" fill="url(#{}-h)" x="8" y="0" width="20" height="14"/>"#, self.id),
-                    t.get(key),
-                );
-            } else {
-                self.dots(d, mesh, has, if mark == CellMark::Open { "open" } else { "closed" });
-                d.key(&format!(r#"<g class="sample">{swatch}</g>"#), t.get(key));
-            }
-            self.row(d, key, format::count(count as f64));
         }
         if !borders.is_empty() {
             let data: String = borders.iter().map(|b| self.path_data(b)).collect();
@@ -310,12 +307,34 @@ impl<'a> Pen<'a> {
         d.below += r#""/></g>"#;
     }
 
-    /// Hatched cells.
-    fn hatch(&self, d: &mut Drawing<'_>, mesh: &Mesh, has: impl Fn(usize) -> Option<()>) {
+    /// Hatches or dots the cells for which `has` says something.
+    fn mark(&self, d: &mut Drawing<'_>, mesh: &Mesh, mark: CellMark, has: impl Fn(usize) -> Option<()>, words: &str) {
+        let class = match mark {
+            CellMark::Open => "open",
+            CellMark::Closed => "closed",
+            CellMark::Blocked | CellMark::None => return self.hatch(d, mesh, has, words),
+        };
+        let twice =
+            |data: &str| format!(r#"<path class="{class}" d="{data}"/><path class="{class} core" d="{data}"/>"#);
+        let mut data = String::new();
+        for_each_run(mesh, has, |(), column, row, length| {
+            // A line of round dashes; a hundredth longer, so that rounding does not lose the last.
+            let _ = write!(data, "M{column} {row}h{}.01", length - 1);
+        });
+        d.below += &open_cells(mesh, self.camera, "dotted");
+        d.below += &twice(&data);
+        d.below += "</g>";
+        d.key(&format!(r#"<g class="sample">{}</g>"#, twice("M12 7h0M24 7h0")), words);
+    }
+
+    fn hatch(&self, d: &mut Drawing<'_>, mesh: &Mesh, has: impl Fn(usize) -> Option<()>, words: &str) {
         let (id, scale) = (self.id, 1.0 / (mesh.size * self.camera.scale));
+        let stripes =
+            |data: &str| format!(r#"<path class="stripe under" d="{data}"/><path class="stripe" d="{data}"/>"#);
         let _ = write!(
             d.below,
-            r#"<pattern id="{id}-h" width="5" height="5" patternUnits="userSpaceOnUse" patternTransform="scale({scale:.5})"><path class="stripe" d="M-1 1L1 -1M0 5L5 0M4 6L6 4"/></pattern>"#
+            r#"<pattern id="{id}-h" width="5" height="5" patternUnits="userSpaceOnUse" patternTransform="scale({scale:.5})">{}</pattern>"#,
+            stripes(STRIPES)
         );
         d.below += &open_cells(mesh, self.camera, "hatch");
         let _ = write!(d.below, r#"<path fill="url(#{id}-h)" d=""#);
@@ -323,17 +342,7 @@ impl<'a> Pen<'a> {
             let _ = write!(d.below, "M{:.1} {:.1}h{length}v1h-{length}z", column as f64 - 0.5, row as f64 - 0.5);
         });
         d.below += r#""/></g>"#;
-    }
-
-    /// A dot in each cell: a line of round dashes for every run of cells.
-    fn dots(&self, d: &mut Drawing<'_>, mesh: &Mesh, has: impl Fn(usize) -> Option<()>, class: &str) {
-        let mut data = String::new();
-        for_each_run(mesh, has, |(), column, row, length| {
-            // A hundredth more: rounding must not lose the last dash.
-            let _ = write!(data, "M{column} {row}h{}.01", length - 1);
-        });
-        d.below += &open_cells(mesh, self.camera, "dotted");
-        let _ = write!(d.below, r#"<path class="{class}" d="{data}"/><path class="{class} core" d="{data}"/></g>"#);
+        d.key(&stripes(STRIPED_KEY), words);
     }
 
     fn trees(&self, d: &mut Drawing<'_>, trees: &[Tree]) {
@@ -341,8 +350,10 @@ impl<'a> Pen<'a> {
         let count = |n: usize| format::count(n as f64);
         self.say(d, if trees.len() > 1 { "own_trees" } else { "own_tree" }, &[("nodes", &count(nodes))]);
         for (k, tree) in trees.iter().enumerate() {
-            let class = if k % 2 == 0 { format!("line tree {}", self.colour()) } else { "line tree other".to_owned() };
-            let _ = write!(d.above, r#"<path class="{class}" d="{}"/>"#, self.branches(tree));
+            let colour = if k % 2 == 0 { self.colour() } else { "other".to_owned() };
+            let class = format!("line tree {colour}{}", if nodes > DENSE { " dense" } else { "" });
+            // Under the obstacles, which edges do not enter: they must not be lost in a thicket.
+            let _ = write!(d.below, r#"<path class="{class}" d="{}"/>"#, self.branches(tree));
             let number = (k + 1).to_string();
             let name = if trees.len() > 1 {
                 self.t.fill("own_tree_of", &[("n", &number)])
