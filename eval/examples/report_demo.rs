@@ -134,6 +134,8 @@ fn record(scene: &Scene, world: &World, m: &Manner, repeat: u32, random: &mut Ra
         time_us: m.time_us * (1.0 + 0.2 * random.next() + if random.next() < 0.05 { 1.5 } else { 0.0 }),
         cpu_us: m.time_us,
         error: None,
+        cost: Some(length),
+        terms: Vec::new(),
         path,
         progress,
     }
@@ -189,6 +191,7 @@ fn campaign(name: &str, scenes: Vec<Scene>, known: bool, repeats: u32) -> Result
         planners: MANNERS.iter().map(planner).collect(),
         scenes: results,
         runs,
+        snapshots: Vec::new(),
         manifest: Manifest {
             version: "0.1.0".into(),
             profile: "release".into(),

@@ -127,6 +127,7 @@ impl Campaign {
                 .collect(),
             scenes: self.arenas.iter().map(Arena::result).collect(),
             runs: Vec::new(),
+            snapshots: Vec::new(),
             manifest,
         }
     }

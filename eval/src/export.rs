@@ -59,8 +59,8 @@ pub fn write(folder: &Path, stored: &Stored, formats: Formats, language: Languag
     Ok(())
 }
 
-/// The columns of `runs.csv`, stable.
-pub const RUN_COLUMNS: [&str; 17] = [
+/// The columns of `runs.csv`, stable: new ones come last.
+pub const RUN_COLUMNS: [&str; 19] = [
     "scene",
     "planner",
     "repeat",
@@ -78,6 +78,8 @@ pub const RUN_COLUMNS: [&str; 17] = [
     "time_us",
     "cpu_us",
     "error",
+    "cost",
+    "terms",
 ];
 
 /// The columns of `summary.csv`.
@@ -132,6 +134,8 @@ pub fn runs_csv(results: &Results) -> String {
             cell(Some(r.time_us)),
             cell(Some(r.cpu_us)),
             r.error.clone().unwrap_or_default(),
+            cell(r.cost),
+            r.terms.iter().map(|(name, value)| format!("{name}={value}")).collect::<Vec<_>>().join(";"),
         ]
     });
     csv_text(&RUN_COLUMNS, rows)
@@ -217,9 +221,11 @@ pub fn manifest_json(results: &Results) -> String {
 mod tests {
     use super::*;
     use crate::campaign::Campaign;
+    use crate::config::BudgetSpec;
+    use crate::replay;
     use crate::results::{Optimum, Progress, RunRecord, RunStatus};
     use crate::store::Store;
-    use crate::testing::{campaign, detour, entry, straight};
+    use crate::testing::{campaign, climber, detour, entry, runs_of, straight};
     use env_model::Point;
 
     fn record(planner: &str, repeat: u32) -> RunRecord {
@@ -240,6 +246,8 @@ mod tests {
             time_us: 0.25,
             cpu_us: 1234.567,
             error: None,
+            cost: None,
+            terms: Vec::new(),
             path: Vec::new(),
             progress: Vec::new(),
         }
@@ -259,6 +267,8 @@ mod tests {
             clearance_min: Some(-1.5e-9),
             turning: Some(0.1 + 0.2),
             evaluations: 8020,
+            cost: Some(2.0 / 3.0),
+            terms: vec![("length".into(), 0.1 + 0.2), ("risk".into(), 5.0)],
             path: vec![Point::new(0.0, 0.0), Point::new(0.1 + 0.2, 1e-300), Point::new(10.0, 0.0)],
             progress: vec![Progress { evaluations: 20, time_us: 0.5, cost: 1.0 / 3.0 }],
             ..record("detour", 1)
@@ -276,11 +286,11 @@ mod tests {
     fn runs_csv_is_as_designed() {
         let campaign = campaign(vec![entry("straight", straight), entry("detour", detour)]);
         let expected = "\
-scene,planner,repeat,seed,status,valid,length,optimum,gap,clearance_min,turning,iterations,evaluations,collision_checks,time_us,cpu_us,error
-a-scene,detour,0,9007199254740991,not_found,false,,10.1,,,,0,0,0,0.25,1234.567,
-a-scene,detour,1,9007199254740991,solved,true,10.333333333333334,10.1,0.0000001,-0.0000000015,0.30000000000000004,0,8020,0,0.25,1234.567,
+scene,planner,repeat,seed,status,valid,length,optimum,gap,clearance_min,turning,iterations,evaluations,collision_checks,time_us,cpu_us,error,cost,terms
+a-scene,detour,0,9007199254740991,not_found,false,,10.1,,,,0,0,0,0.25,1234.567,,,
+a-scene,detour,1,9007199254740991,solved,true,10.333333333333334,10.1,0.0000001,-0.0000000015,0.30000000000000004,0,8020,0,0.25,1234.567,,0.6666666666666666,length=0.30000000000000004;risk=5
 a-scene,straight,0,9007199254740991,error,false,,10.1,,,,0,0,0,0.25,1234.567,\"no, \"\"thanks\"\"
-really\"
+really\",,
 ";
         assert_eq!(runs_csv(&results(&campaign)), expected);
     }
@@ -322,6 +332,42 @@ detour,a-scene,2,1,inf,inf,inf,10.333333333333334,inf,0.25,4010
         let value: serde_json::Value = serde_json::from_str(&line).unwrap();
         assert_eq!(value["path"][1], serde_json::json!([0.1 + 0.2, 1e-300]));
         assert!(folder.join("scenes/a-scene.toml").is_file());
+        fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn snapshots_are_kept_and_the_first_version_is_still_read() {
+        let folder = std::env::temp_dir().join(format!("touchline-versions-{}", std::process::id()));
+        let _ = fs::remove_dir_all(&folder);
+        fs::create_dir_all(&folder).unwrap();
+        let campaign = campaign(vec![climber(BudgetSpec::default())]);
+        let mut results = campaign.empty_results(1);
+        results.runs = runs_of(&campaign);
+        assert!(results.runs.iter().all(|r| r.cost == Some(12.0) && r.terms == [("length".to_owned(), 12.5)]));
+        results.snapshots = replay::snapshots(&campaign, &results.runs);
+        assert_eq!(results.snapshots.len(), 4);
+        let mut store = Store::create(&folder, &campaign, &results).unwrap();
+        results.runs.iter().for_each(|run| store.add(run).unwrap());
+        store.add_snapshots(&results.snapshots).unwrap();
+        drop(store);
+        assert_eq!(Store::open(&folder).unwrap().read().unwrap().results, results);
+
+        // What version 1 had not is taken away.
+        let db = rusqlite::Connection::open(folder.join(crate::store::FILE)).unwrap();
+        db.execute_batch(
+            "DROP TABLE snapshot; ALTER TABLE run DROP COLUMN cost; ALTER TABLE run DROP COLUMN terms;
+             UPDATE campaign SET schema = 1;",
+        )
+        .unwrap();
+        results.snapshots.clear();
+        for run in &mut results.runs {
+            (run.cost, run.terms) = (None, Vec::new());
+        }
+        assert_eq!(Store::open(&folder).unwrap().read().unwrap().results, results);
+        db.execute_batch("UPDATE campaign SET schema = 3").unwrap();
+        let refusal = Store::open(&folder).err().unwrap().to_string();
+        assert!(refusal.contains("schema version 3; this program reads versions 1 to 2"), "{refusal}");
+        drop(db);
         fs::remove_dir_all(&folder).unwrap();
     }
 }

@@ -65,13 +65,15 @@ pub fn percent(ratio: f64) -> String {
 
 /// A ratio as percent for a tick: powers of ten beyond four digits as such.
 pub fn percent_tick(ratio: f64) -> String {
-    let exponent = (100.0 * ratio).log10();
+    power(100.0 * ratio).map_or_else(|| percent(ratio), |power| format!("{power}\u{a0}%"))
+}
+
+/// 10ⁿ for a power of ten with |n| > 3, else `None`.
+pub fn power(value: f64) -> Option<String> {
+    let exponent = value.log10();
     let whole = exponent.round();
-    if ratio > 0.0 && (exponent - whole).abs() < 1e-9 && whole.abs() > 3.0 {
-        let digits: String = format!("{whole:.0}").chars().map(superscript).collect();
-        return format!("10{digits}\u{a0}%");
-    }
-    percent(ratio)
+    (value > 0.0 && (exponent - whole).abs() < 1e-9 && whole.abs() > 3.0)
+        .then(|| format!("10{}", format!("{whole:.0}").chars().map(superscript).collect::<String>()))
 }
 
 fn superscript(c: char) -> char {

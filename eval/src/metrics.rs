@@ -20,7 +20,7 @@ pub struct Metric {
 pub const VERSION: u32 = 1;
 
 /// The metrics of a run, in the order of `runs.csv`.
-pub const METRICS: [Metric; 10] = [
+pub const METRICS: [Metric; 12] = [
     Metric {
         name: "valid",
         unit: "true/false",
@@ -47,6 +47,16 @@ pub const METRICS: [Metric; 10] = [
     Metric { name: "collision_checks", unit: "count", definition: "tests of one segment against the world" },
     Metric { name: "time_us", unit: "µs", definition: "wall time of the planning call alone" },
     Metric { name: "cpu_us", unit: "µs", definition: "processor time of the planning call's thread" },
+    Metric {
+        name: "cost",
+        unit: "the planner's own",
+        definition: "cost of the path by the planner's own objective; empty while infinite",
+    },
+    Metric {
+        name: "terms",
+        unit: "the planner's own",
+        definition: "named parts of the planner's own objective, as name=value separated by semicolons",
+    },
 ];
 
 /// Path length Σ‖pᵢ₊₁ − pᵢ‖, summed from the start, in scene units.

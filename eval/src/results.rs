@@ -3,6 +3,8 @@
 use env_model::{Point, Scene};
 use serde::{Deserialize, Serialize};
 
+use crate::snapshot::Snapshot;
+
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -104,10 +106,21 @@ pub struct RunRecord {
     pub cpu_us: f64,
     /// What went wrong, if anything.
     pub error: Option<String>,
+    /// Cost of the path by the planner's own objective; `None` while infinite.
+    pub cost: Option<f64>,
+    /// Named parts of that objective, in the planner's order; only finite ones.
+    pub terms: Vec<(String, f64)>,
     /// The path; empty without one.
     pub path: Vec<Point>,
     /// Convergence: one entry per improvement.
     pub progress: Vec<Progress>,
+}
+
+impl RunRecord {
+    /// The part of the planner's objective called `name`.
+    pub fn term(&self, name: &str) -> Option<f64> {
+        self.terms.iter().find(|(n, _)| n == name).map(|(_, value)| *value)
+    }
 }
 
 /// The exact shortest length in a scene, or why it is not known.
@@ -179,6 +192,8 @@ pub struct Results {
     pub scenes: Vec<SceneResult>,
     /// The runs, sorted by scene, planner, repeat (names in byte order).
     pub runs: Vec<RunRecord>,
+    /// What planners looked like at the end of some runs, in the order of scenes and planners.
+    pub snapshots: Vec<Snapshot>,
     /// Machine, versions, times.
     pub manifest: Manifest,
 }

@@ -146,6 +146,8 @@ pub fn run_once(
         time_us: 0.0,
         cpu_us: 0.0,
         error: None,
+        cost: None,
+        terms: Vec::new(),
         path: Vec::new(),
         progress: Vec::new(),
     };
@@ -196,6 +198,9 @@ pub fn run_once(
                 Status::Infeasible => RunStatus::Infeasible,
             };
             record.path.clone_from(&plan.path);
+            record.cost = Some(plan.cost).filter(|cost| cost.is_finite());
+            let finite = plan.terms.iter().filter(|(_, value)| value.is_finite());
+            record.terms = finite.map(|(name, value)| ((*name).to_owned(), *value)).collect();
         }
         Err(e) => record.error = Some(e.to_string()),
     }

@@ -2,7 +2,8 @@
 //!
 //! An `SQLite` database in WAL mode, one transaction a run, so an interrupted campaign keeps
 //! every run that ended. Paths and progress curves are JSON text
-//! (`[[x, y], …]` and `[[evaluations, time_us, cost], …]`), readable from any language.
+//! (`[[x, y], …]` and `[[evaluations, time_us, cost], …]`), and so are terms (`[[name, value], …]`)
+//! and snapshots ([`Snapshot`]): readable from any language.
 
 use std::path::{Path, PathBuf};
 
@@ -12,11 +13,14 @@ use rusqlite::{Connection, OpenFlags, OptionalExtension, params};
 use crate::campaign::Campaign;
 use crate::error::Error;
 use crate::results::{Manifest, Optimum, PlannerInfo, Progress, Results, RunRecord, RunStatus, SceneResult};
+use crate::snapshot::Snapshot;
 
 /// The file's name in a campaign's folder.
 pub const FILE: &str = "runs.db";
 /// Version of the tables below.
-const SCHEMA: i64 = 1;
+const SCHEMA: i64 = 2;
+/// The first version, which this program still reads: without `snapshot` and a run's `cost` and `terms`.
+const FIRST: i64 = 1;
 
 const TABLES: &str = "
 CREATE TABLE campaign (
@@ -62,8 +66,14 @@ CREATE TABLE run (
     error TEXT,
     path TEXT NOT NULL,                -- JSON
     progress TEXT NOT NULL,            -- JSON
+    cost REAL,
+    terms TEXT NOT NULL,               -- JSON
     PRIMARY KEY (scene, planner, repeat)
 ) WITHOUT ROWID;
+CREATE TABLE snapshot (
+    position INTEGER PRIMARY KEY,
+    snapshot TEXT NOT NULL             -- JSON
+);
 ";
 
 /// What a store holds besides the results proper.
@@ -81,6 +91,7 @@ pub struct Stored {
 pub struct Store {
     path: PathBuf,
     db: Connection,
+    schema: i64,
 }
 
 impl Store {
@@ -93,7 +104,7 @@ impl Store {
         // In WAL mode a crash of the program loses nothing; of the machine, at most the last runs.
         db.pragma_update(None, "synchronous", "NORMAL").map_err(fail)?;
         fill(&mut db, campaign, results).map_err(fail)?;
-        Ok(Self { path, db })
+        Ok(Self { path, db, schema: SCHEMA })
     }
 
     /// Opens `folder/runs.db` for reading.
@@ -113,8 +124,10 @@ impl Store {
         let schema: Option<i64> =
             db.query_row("SELECT schema FROM campaign", [], |row| row.get(0)).optional().map_err(fail)?;
         match schema {
-            Some(SCHEMA) => Ok(Self { path, db }),
-            Some(other) => Err(foreign(format!("schema version {other}; this program reads version {SCHEMA}"))),
+            Some(schema @ FIRST..=SCHEMA) => Ok(Self { path, db, schema }),
+            Some(other) => {
+                Err(foreign(format!("schema version {other}; this program reads versions {FIRST} to {SCHEMA}")))
+            }
             None => Err(foreign("a database of runs that was never begun".to_owned())),
         }
     }
@@ -128,6 +141,11 @@ impl Store {
         insert(&self.db, run).map_err(self.fail())
     }
 
+    /// Adds what planners looked like, all in one transaction.
+    pub fn add_snapshots(&mut self, snapshots: &[Snapshot]) -> Result<(), Error> {
+        add_snapshots(&mut self.db, snapshots).map_err(self.fail())
+    }
+
     /// Notes that the campaign has ended.
     pub fn finish(&mut self, manifest: &Manifest) -> Result<(), Error> {
         let json = json(manifest);
@@ -138,7 +156,7 @@ impl Store {
     /// Reads everything back.
     pub fn read(&self) -> Result<Stored, Error> {
         let foreign = |message: String| Error::Foreign { path: self.path.clone(), message };
-        let stored = read(&self.db).map_err(self.fail())?;
+        let stored = read(&self.db, self.schema).map_err(self.fail())?;
         stored.map_err(foreign)
     }
 }
@@ -195,7 +213,8 @@ fn fill(db: &mut Connection, campaign: &Campaign, results: &Results) -> rusqlite
 fn insert(db: &Connection, run: &RunRecord) -> rusqlite::Result<()> {
     let progress: Vec<(u64, f64, f64)> = run.progress.iter().map(|p| (p.evaluations, p.time_us, p.cost)).collect();
     let mut statement = db.prepare_cached(
-        "INSERT INTO run VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17, ?18)",
+        "INSERT INTO run VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17, ?18,
+         ?19, ?20)",
     )?;
     // Outside of `BEGIN` every statement is a transaction of its own.
     statement.execute(params![
@@ -217,12 +236,22 @@ fn insert(db: &Connection, run: &RunRecord) -> rusqlite::Result<()> {
         run.error,
         points(&run.path),
         json(&progress),
+        run.cost,
+        json(&run.terms),
     ])?;
     Ok(())
 }
 
+fn add_snapshots(db: &mut Connection, snapshots: &[Snapshot]) -> rusqlite::Result<()> {
+    let tx = db.transaction()?;
+    for snapshot in snapshots {
+        tx.prepare_cached("INSERT INTO snapshot (snapshot) VALUES (?1)")?.execute(params![json(snapshot)])?;
+    }
+    tx.commit()
+}
+
 /// The outer error is the database's, the inner one says which content makes no sense.
-fn read(db: &Connection) -> rusqlite::Result<Result<Stored, String>> {
+fn read(db: &Connection, schema: i64) -> rusqlite::Result<Result<Stored, String>> {
     fn path(json: &str) -> Result<Vec<Point>, String> {
         let points: Vec<[f64; 2]> = serde_json::from_str(json).map_err(|e| format!("a path: {e}"))?;
         Ok(points.into_iter().map(Point::from).collect())
@@ -250,13 +279,15 @@ fn read(db: &Connection) -> rusqlite::Result<Result<Stored, String>> {
             Ok((file, SceneResult { scene, optimum: Optimum { length, path: path(&shortest)?, reason } }))
         }))
     })?)?;
-    let mut statement = db.prepare(
+    let added = if schema == FIRST { "NULL, '[]'" } else { "cost, terms" };
+    let mut statement = db.prepare(&format!(
         "SELECT scene, planner, repeat, seed, status, valid, length, gap, clearance_min, turning, iterations,
-         evaluations, collision_checks, time_us, cpu_us, error, path, progress
+         evaluations, collision_checks, time_us, cpu_us, error, path, progress, {added}
          FROM run ORDER BY scene, planner, repeat",
-    )?;
+    ))?;
     let runs = collect(statement.query_map([], |row| {
         let (status, points, curve): (String, String, String) = (row.get(4)?, row.get(16)?, row.get(17)?);
+        let terms: String = row.get(19)?;
         let count = |i: usize| row.get::<_, i64>(i).map(|n| n as u64);
         let mut run = RunRecord {
             scene: row.get(0)?,
@@ -275,6 +306,8 @@ fn read(db: &Connection) -> rusqlite::Result<Result<Stored, String>> {
             time_us: row.get(13)?,
             cpu_us: row.get(14)?,
             error: row.get(15)?,
+            cost: row.get(18)?,
+            terms: Vec::new(),
             path: Vec::new(),
             progress: Vec::new(),
         };
@@ -284,14 +317,24 @@ fn read(db: &Connection) -> rusqlite::Result<Result<Stored, String>> {
             let curve: Vec<(u64, f64, f64)> = serde_json::from_str(&curve).map_err(|e| format!("a curve: {e}"))?;
             let point = |(evaluations, time_us, cost)| Progress { evaluations, time_us, cost };
             run.progress = curve.into_iter().map(point).collect();
+            run.terms = serde_json::from_str(&terms).map_err(|e| format!("terms: {e}"))?;
             Ok(())
         };
         Ok(parse().map(|()| run))
     })?)?;
+    let mut snapshots = Ok(Vec::new());
+    if schema != FIRST {
+        let mut statement = db.prepare("SELECT snapshot FROM snapshot ORDER BY position")?;
+        snapshots = collect(statement.query_map([], |row| {
+            let text: String = row.get(0)?;
+            Ok(serde_json::from_str::<Snapshot>(&text).map_err(|e| format!("a snapshot: {e}")))
+        })?)?;
+    }
     Ok((|| {
         let (scene_files, scenes) = scenes?.into_iter().unzip();
         let manifest = serde_json::from_str(&manifest).map_err(|e| format!("the manifest: {e}"))?;
-        let results = Results { name, seed: seed as u64, repeats, planners, scenes, runs: runs?, manifest };
+        let (runs, snapshots) = (runs?, snapshots?);
+        let results = Results { name, seed: seed as u64, repeats, planners, scenes, runs, snapshots, manifest };
         Ok(Stored { results, comparison, scene_files })
     })())
 }

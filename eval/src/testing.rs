@@ -1,10 +1,12 @@
 //! Fake planners and small campaigns for tests.
 
 use env_model::{Obstacle, Point, Scene};
-use planner_api::{Plan, PlanError, Planner, Problem, Run, Status, View};
+use planner_api::{Candidates, Plan, PlanError, Planner, PopulationView, Problem, Run, Status, TreeView, View};
 
 use crate::campaign::Campaign;
 use crate::config::{BudgetSpec, Comparison, PlannerEntry};
+use crate::results::RunRecord;
+use crate::runner;
 
 /// A planner that is a function of problem and seed, and counts its calls since `reset`.
 pub struct Fake {
@@ -41,6 +43,63 @@ impl Planner for Patient {
         }
         Ok(Status::BudgetSpent)
     }
+}
+
+/// Shows a population for ten iterations, then a growing tree for two, and returns a detour.
+pub struct Climber;
+
+impl Planner for Climber {
+    fn plan_into(&mut self, problem: &Problem<'_>, run: &mut Run<'_>, plan: &mut Plan) -> Result<Status, PlanError> {
+        plan.clear();
+        let mut paths = Candidates::default();
+        for k in 0..3 {
+            paths.push([problem.start, Point::new(5.0, f64::from(k)), problem.goal]);
+        }
+        let mut nodes = vec![problem.start];
+        let mut stopped = false;
+        for k in 0..=12_u32 {
+            if k > 0 {
+                if !run.allows(1) {
+                    stopped = true;
+                    break;
+                }
+                run.spent.iterations += 1;
+                run.spent.evaluations += 1;
+                nodes.push(Point::new(f64::from(k), 2.0));
+            }
+            let parents: Vec<u32> = (0..=k).map(|i| i.saturating_sub(1)).collect();
+            let fitness = [f64::from(k), 0.5 * f64::from(k), f64::NAN];
+            if k <= 10 {
+                let view = PopulationView { paths: &paths, fitness: &fitness, grid: None, best: &[] };
+                run.report("climb", 1.0, || View::Population(view));
+            } else {
+                let trees = [TreeView { nodes: &nodes, parents: &parents }];
+                run.report("grow", 1.0, || View::Trees(&trees));
+            }
+        }
+        detour(problem, run.seed, plan)?;
+        plan.cost = 12.0;
+        plan.terms.extend([("length", 12.5), ("risk", f64::INFINITY)]);
+        plan.counters = run.spent;
+        Ok(if stopped { Status::BudgetSpent } else { Status::Solved })
+    }
+}
+
+pub fn climber(budget: BudgetSpec) -> PlannerEntry {
+    PlannerEntry { budget, make: Box::new(|| Box::new(Climber)), ..entry("climber", detour) }
+}
+
+/// All runs of a campaign, sorted.
+pub fn runs_of(campaign: &Campaign) -> Vec<RunRecord> {
+    let mut runs = Vec::new();
+    let optima = vec![None; campaign.arenas.len()];
+    runner::run(campaign, &optima, 1, |r| {
+        runs.push(r);
+        Ok::<(), ()>(())
+    })
+    .unwrap();
+    runs.sort_by(|a, b| (&a.scene, &a.planner, a.repeat).cmp(&(&b.scene, &b.planner, b.repeat)));
+    runs
 }
 
 pub fn entry(label: &str, act: fn(&Problem<'_>, u64, &mut Plan) -> Result<Status, PlanError>) -> PlannerEntry {

@@ -1,18 +1,37 @@
 //! One JSON line for each frame of a run: what an animation needs.
 //!
 //! Every line holds `stage`, `iteration`, `evaluations`, `best_cost` (null while
-//! infinite). A path in sight adds `path`, `[[x, y], …]` in scene units. A swarm adds
+//! infinite; so are other numbers that are infinite or none). Points are `[x, y]` in
+//! scene units. A path in sight adds `path`, `[[x, y], …]`. A swarm adds
 //!
 //! - `frame`: `origin` and `axis` = (cos θ, sin θ) of the local frame X'RY': the
 //!   local point (x', y') lies at origin + x'·axis + y'·(−sin θ, cos θ);
 //! - `x`: the m columns' x'; `half_width`: H = L/4 of the paper's rectangle;
 //! - `positions`, `velocities`, `personal_bests`: n rows of m heights y';
 //! - `personal_costs` (n), `global_best` (m), `global_cost`.
+//!
+//! A search, an activity or a trail on cells adds
+//!
+//! - `grid`: `origin` (the lower left corner), `size` of a cell, `columns`, `rows`; cells are
+//!   numbered row by row from the lower left;
+//! - `blocked`: the numbers of the cells that cannot be entered; `open`, `closed`: of those
+//!   that wait to be expanded and those that have been;
+//! - `quantity` and `values`: what is known of each cell (`"risk"`, `"activity"`, `"pheromone"`,
+//!   `"distance"`); left out where there is nothing;
+//! - `borders`: segments `[[x, y], [x, y]]` between regions; `path`: the best path so far.
+//!
+//! Trees add `trees`, each with `nodes` (points) and `parents` (indices of nodes; a root is its
+//! own). A population adds `paths`, their `fitness` (larger is better), `path` (the best so far)
+//! and `grid` where chromosomes number cells. A field of forces adds `grid`, `forces`
+//! (`[fx, fy]` at each cell's centre), `trail` (points) and `stuck` (a point, or null).
 
 use std::io::{self, Write};
 use std::ops::ControlFlow;
 
-use planner_api::{Frame, Observer, Problem, SwarmView, View};
+use env_model::{CellGrid, Point};
+use planner_api::{
+    CellState, CellsView, ForcesView, Frame, Observer, PopulationView, Problem, SwarmView, TreeView, View,
+};
 use serde_json::{Map, Value, json};
 
 /// Writes frames as they come.
@@ -45,9 +64,15 @@ impl<W: Write> Tracer<W> {
         line.insert("best_cost".into(), finite(frame.best_cost));
         match frame.view {
             View::Path(path) => {
-                line.insert("path".into(), path.iter().map(|p| json!([p.x, p.y])).collect());
+                line.insert("path".into(), points(path));
             }
             View::Swarm(swarm) => self.swarm(&mut line, &swarm),
+            View::Cells(view) => cells(&mut line, &view),
+            View::Trees(trees) => {
+                line.insert("trees".into(), trees.iter().map(tree).collect());
+            }
+            View::Population(view) => population(&mut line, &view),
+            View::Forces(view) => forces(&mut line, &view),
             _ => {}
         }
         serde_json::to_writer(&mut self.out, &line)?;
@@ -69,6 +94,53 @@ impl<W: Write> Tracer<W> {
     }
 }
 
+fn point(p: Point) -> Value {
+    json!([finite(p.x), finite(p.y)])
+}
+
+fn points(points: &[Point]) -> Value {
+    points.iter().copied().map(point).collect()
+}
+
+fn grid(grid: &CellGrid) -> Value {
+    let origin = point(grid.aabb().min);
+    json!({ "origin": origin, "size": grid.size(), "columns": grid.columns(), "rows": grid.rows() })
+}
+
+fn cells(line: &mut Map<String, Value>, view: &CellsView<'_>) {
+    line.insert("grid".into(), grid(view.grid));
+    line.insert("blocked".into(), (0..view.blocked.len()).filter(|c| view.blocked[*c]).collect());
+    for (name, state) in [("open", CellState::Open), ("closed", CellState::Closed)] {
+        line.insert(name.into(), (0..view.states.len()).filter(|c| view.states[*c] == state).collect());
+    }
+    if !view.values.is_empty() {
+        line.insert("quantity".into(), view.quantity.into());
+        line.insert("values".into(), view.values.iter().copied().map(finite).collect());
+    }
+    line.insert("borders".into(), view.borders.iter().map(|(a, b)| json!([point(*a), point(*b)])).collect());
+    line.insert("path".into(), points(view.path));
+}
+
+fn tree(view: &TreeView<'_>) -> Value {
+    json!({ "nodes": points(view.nodes), "parents": view.parents })
+}
+
+fn population(line: &mut Map<String, Value>, view: &PopulationView<'_>) {
+    line.insert("paths".into(), view.paths.iter().map(points).collect());
+    line.insert("fitness".into(), view.fitness.iter().copied().map(finite).collect());
+    line.insert("path".into(), points(view.best));
+    if let Some(cells) = view.grid {
+        line.insert("grid".into(), grid(cells));
+    }
+}
+
+fn forces(line: &mut Map<String, Value>, view: &ForcesView<'_>) {
+    line.insert("grid".into(), grid(view.grid));
+    line.insert("forces".into(), view.forces.iter().map(|f| json!([finite(f.x), finite(f.y)])).collect());
+    line.insert("trail".into(), points(view.trail));
+    line.insert("stuck".into(), view.stuck.map_or(Value::Null, point));
+}
+
 /// JSON has no infinity: null.
 fn finite(value: f64) -> Value {
     if value.is_finite() { value.into() } else { Value::Null }
@@ -78,5 +150,66 @@ impl<W: Write> Observer for Tracer<W> {
     fn frame(&mut self, frame: &Frame<'_>) -> ControlFlow<()> {
         self.outcome = self.line(frame);
         if self.outcome.is_ok() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::campaign::Arena;
+    use crate::testing::scene;
+    use env_model::{Aabb, Vector};
+    use planner_api::Candidates;
+
+    fn traced(views: &[View<'_>]) -> Vec<Value> {
+        let arena = Arena::new(scene("one")).unwrap();
+        let mut out = Vec::new();
+        let mut tracer = Tracer::new(&mut out, &arena.problem().unwrap());
+        for view in views {
+            let frame = Frame { stage: "s", iteration: 1, evaluations: 2, best_cost: f64::INFINITY, view: *view };
+            assert!(tracer.frame(&frame).is_continue());
+        }
+        tracer.finish().unwrap();
+        String::from_utf8(out).unwrap().lines().map(|l| serde_json::from_str(l).unwrap()).collect()
+    }
+
+    #[test]
+    fn every_view_has_its_line() {
+        let extent = Aabb { min: Point::new(0.0, -1.0), max: Point::new(2.0, 1.0) };
+        let cells = CellGrid::covering(&extent, 2, 2);
+        let ends = [Point::new(0.0, 0.0), Point::new(10.0, 0.5)];
+        let mut paths = Candidates::default();
+        paths.push(ends);
+        let trees = [TreeView { nodes: &ends, parents: &[0, 0] }];
+        let views = [
+            View::Cells(CellsView {
+                grid: &cells,
+                blocked: &[false, true, false, true],
+                states: &[CellState::Open, CellState::Untouched, CellState::Closed, CellState::Untouched],
+                values: &[0.5, f64::INFINITY, 1.0, 2.0],
+                quantity: "risk",
+                borders: &[(ends[0], ends[1])],
+                path: &ends,
+            }),
+            View::Trees(&trees),
+            View::Population(PopulationView { paths: &paths, fitness: &[0.25], grid: Some(&cells), best: &ends }),
+            View::Forces(ForcesView { grid: &cells, forces: &[Vector::new(1.0, 0.0)], trail: &ends, stuck: None }),
+        ];
+        let lines = traced(&views);
+        let path = json!([[0.0, 0.0], [10.0, 0.5]]);
+        let head = json!({ "stage": "s", "iteration": 1, "evaluations": 2, "best_cost": null });
+        let grid = json!({ "origin": [0.0, -1.0], "size": 1.0, "columns": 2, "rows": 2 });
+        let bodies = [
+            json!({ "grid": grid, "blocked": [1, 3], "open": [0], "closed": [2], "quantity": "risk",
+                    "values": [0.5, null, 1.0, 2.0], "borders": [path], "path": path }),
+            json!({ "trees": [{ "nodes": path, "parents": [0, 0] }] }),
+            json!({ "paths": [path], "fitness": [0.25], "path": path, "grid": grid }),
+            json!({ "grid": grid, "forces": [[1.0, 0.0]], "trail": path, "stuck": null }),
+        ];
+        for (line, mut expected) in lines.iter().zip(bodies) {
+            expected.as_object_mut().unwrap().extend(head.as_object().unwrap().clone());
+            assert_eq!(line, &expected);
+        }
+        assert_eq!(lines.len(), 4);
     }
 }

@@ -134,6 +134,11 @@ fn a_campaign_leaves_everything_and_can_be_made_again() {
         place.ok(&["plan", "one.toml", "--planner", "pso", "--set", "iterations=20", "--seed", cells[3], "--json"]);
     let replay: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(replay["length"].to_string(), cells[6]);
+    assert_eq!(replay["cost"].to_string(), cells[17]);
+
+    // The swarm's own picture comes from a replay; the other planners show no state.
+    assert_eq!(report.matches("<figure class=\"own\">").count(), 1);
+    assert!(report.contains("from an untimed replay of repeat"));
 
     place.refused(&["run", "small.toml", "--out", "out"], "holds a finished campaign, \"small\"");
     place.refused(&["run", "small.toml", "--out", "."], "holds other files; expected a new or empty folder");

@@ -136,7 +136,7 @@ struct PlanArgs {
     /// Draw scene, optimum and path
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
-    /// Write one JSON line for every frame (particles, velocities, …), from a second, untimed run
+    /// Write one JSON line for every frame (particles, cells, trees, individuals, forces), from a second, untimed run
     #[arg(long, value_name = "FILE")]
     trace: Option<PathBuf>,
 }

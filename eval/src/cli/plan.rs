@@ -1,5 +1,6 @@
 //! `touchline plan`: one planner, once, in one scene.
 
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::BufWriter;
 use std::path::Path;
@@ -116,6 +117,8 @@ fn as_json(entry: &PlannerEntry, scene: &SceneResult, r: &RunRecord) -> String {
         "time_us": r.time_us,
         "cpu_us": r.cpu_us,
         "error": r.error,
+        "cost": r.cost,
+        "terms": r.terms.iter().cloned().collect::<BTreeMap<_, _>>(),
         "path": r.path.iter().map(|p| [p.x, p.y]).collect::<Vec<_>>(),
         "progress": r.progress,
     });
@@ -141,6 +144,10 @@ fn summary(entry: &PlannerEntry, scene: &SceneResult, r: &RunRecord, judge: &Jud
     }
     if let Some(clearance) = r.clearance_min {
         line("clearance", format!("{clearance:.6} {unit}"));
+    }
+    if !r.terms.is_empty() {
+        let terms: Vec<String> = r.terms.iter().map(|(n, v)| format!("{n} {}", format::significant(*v, 6))).collect();
+        line("terms", terms.join(", "));
     }
     line(
         "work",

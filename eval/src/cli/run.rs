@@ -12,7 +12,7 @@ use crate::progress::Progress;
 use crate::report::Language;
 use crate::results::{Results, RunStatus};
 use crate::store::Store;
-use crate::{machine, runner, table};
+use crate::{machine, replay, runner, table};
 
 pub(super) fn run(args: &RunArgs) -> Result<ExitCode, Error> {
     for (asked, what) in [(args.resume, "--resume"), (args.shard.is_some(), "--shard"), (args.isolate, "--isolate")] {
@@ -90,6 +90,8 @@ fn carry_out(campaign: &Campaign, out: Option<&Path>, jobs: usize, quiet: bool) 
     progress.finish();
     let mut manifest = results.manifest;
     manifest.finished = machine::now();
+    // After the last timed run, so that no picture is taken at its expense.
+    store.add_snapshots(&replay::snapshots(campaign, &store.read()?.results.runs))?;
     store.finish(&manifest)?;
     // From the store, as `report` does it: what is exported is what was kept.
     let stored = store.read()?;

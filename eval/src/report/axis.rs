@@ -26,6 +26,11 @@ impl Axis {
         Self { lo, hi: (hi * pad).clamp(3.0 * lo, 1e150), log: true, from, to }
     }
 
+    /// Maps [lo, hi], 0 < lo < hi, logarithmically to [from, to], as they are.
+    pub fn log_exact(lo: f64, hi: f64, from: f64, to: f64) -> Self {
+        Self { lo, hi, log: true, from, to }
+    }
+
     /// A logarithmic axis when `values` span more than `ratio`, else a linear one; `None` without finite values.
     ///
     /// Values from 0 to `floor` are as good as 0: a logarithmic axis draws them on

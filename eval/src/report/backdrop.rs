@@ -12,8 +12,14 @@ use crate::format;
 
 /// Ground, border, obstacles and, if wanted, numbers along the border. `id` is unique in the page.
 pub fn backdrop(scene: &Scene, camera: &Camera, t: &Strings, id: &str, words: bool) -> String {
+    let numbers = if words { numbers(scene, camera, t) } else { String::new() };
+    ground(scene, camera, id) + &obstacles(scene, camera, id) + &numbers
+}
+
+/// Ground and border of the field.
+pub(super) fn ground(scene: &Scene, camera: &Camera, id: &str) -> String {
     let (w, h) = (WIDTH, camera.height());
-    let mut out = format!(r#"<rect class="ground" x="{LEFT}" y="{TOP}" width="{w}" height="{h:.1}"/>"#);
+    let out = format!(r#"<rect class="ground" x="{LEFT}" y="{TOP}" width="{w}" height="{h:.1}"/>"#);
     let mut inside = String::new();
     if let Some(field) = scene.field {
         let rectangle = |class: &str, inset: f64| {
@@ -27,28 +33,28 @@ pub fn backdrop(scene: &Scene, camera: &Camera, t: &Strings, id: &str, words: bo
             inside += &rectangle("reach", scene.robot_radius);
         }
     }
+    out + &clipped(&format!("{id}-b"), camera, &inside)
+}
+
+/// Obstacles with the robot's inflation, as a group of the id `{id}-obstacles`.
+pub(super) fn obstacles(scene: &Scene, camera: &Camera, id: &str) -> String {
     let shapes: String = scene.obstacles.iter().enumerate().map(|(i, o)| outline(scene, camera, i, o)).collect();
-    if scene.robot_radius > 0.0 && !scene.obstacles.is_empty() {
+    let inside = if scene.robot_radius > 0.0 && !scene.obstacles.is_empty() {
         // A stroke of twice the radius, round joins: the exact inflation of any
         // shape. Drawn wider first, then over it the inside: a ring round the union.
         let wide = (2.0 * scene.robot_radius * camera.scale).min(1e9);
-        let _ = write!(
-            inside,
+        format!(
             r##"<defs><g id="{id}-s">{shapes}</g></defs><use href="#{id}-s" class="ring" style="stroke-width:{:.2}px"/><use href="#{id}-s" class="halo" style="stroke-width:{wide:.2}px"/><use href="#{id}-s" class="obstacle"/>"##,
             wide + 2.4
-        );
+        )
     } else {
-        let _ = write!(inside, r#"<g class="obstacle">{shapes}</g>"#);
-    }
-    out += &clipped(&format!("{id}-b"), camera, &inside);
-    if words {
-        out += &numbers(scene, camera, t);
-    }
-    out
+        format!(r#"<g class="obstacle">{shapes}</g>"#)
+    };
+    format!(r#"<g id="{id}-obstacles">{}</g>"#, clipped(&format!("{id}-o"), camera, &inside))
 }
 
 /// Numbers along the border, in scene units.
-fn numbers(scene: &Scene, camera: &Camera, t: &Strings) -> String {
+pub(super) fn numbers(scene: &Scene, camera: &Camera, t: &Strings) -> String {
     let (min, max) = (camera.region.min, camera.region.max);
     let bottom = TOP + camera.height();
     let mut out = String::from(r#"<g class="ticks">"#);

@@ -50,6 +50,11 @@ impl Strings {
         self.entries.get(key).map_or(key, String::as_str)
     }
 
+    /// Whether there are words for `key`.
+    pub fn has(&self, key: &str) -> bool {
+        self.entries.contains_key(key)
+    }
+
     /// The words for `key` with every `{name}` replaced. Plain text, not escaped.
     pub fn fill(&self, key: &str, values: &[(&str, &str)]) -> String {
         // One pass, so that a value that looks like a placeholder stays as it is.
@@ -121,6 +126,9 @@ mod tests {
             include_str!("convergence.rs"),
             include_str!("strip.rs"),
             include_str!("tables.rs"),
+            include_str!("own_picture.rs"),
+            include_str!("pareto.rs"),
+            include_str!("fitness.rs"),
             include_str!("headline.rs"),
             include_str!("svg.rs"),
             include_str!("backdrop.rs"),
@@ -132,7 +140,8 @@ mod tests {
         for key in en.entries.keys() {
             let used = sources.contains(&format!("\"{key}\""))
                 || sources.split(&format!("t.{key}")).skip(1).any(|s| s.starts_with([' ', ')', ',']))
-                || key.starts_with("status_");
+                || key.starts_with("status_")
+                || key.starts_with("quantity_");
             assert!(used, "{key} is never used");
         }
         let page = include_str!("page.html");

@@ -1,7 +1,7 @@
 //! `report.html`: one self-contained page, readable without JavaScript.
 //!
 //! Answer first, evidence after: a headline and the comparison table; for each
-//! scene every planner's best path and all its runs, convergence, and how gaps
+//! scene every planner's best path, all its runs and what it did, convergence, and how gaps
 //! and times spread; settings, seeds and machine at the end. Every figure has a
 //! paragraph that says what it shows and a table with its data.
 
@@ -10,11 +10,16 @@ mod backdrop;
 mod camera;
 mod chart;
 mod convergence;
+mod fitness;
 mod headline;
+mod heat;
 mod language;
+mod own_picture;
 mod palette;
+mod pareto;
 mod planner_card;
 mod scene_section;
+mod streamlines;
 mod strip;
 pub mod svg;
 mod tables;
@@ -30,7 +35,7 @@ use scene_section::Extent;
 use crate::results::{Manifest, Results, SceneResult};
 
 /// Scenes shown with every figure.
-const FULL: usize = 3;
+pub const FULL: usize = 3;
 /// Scenes beyond these that get small pictures; the rest have their tables alone.
 const SMALL: usize = 24;
 
@@ -69,7 +74,9 @@ pub fn html(results: &Results, language: Language) -> String {
             context! { label, kind, settings, swatch => Value::from_safe_string(palette::swatch(i)) }
         })
         .collect();
-    let css = [&palette::css_variables(), svg::FIGURE_CSS, &palette::series_css(), include_str!("style.css")].concat();
+    let css =
+        [&palette::css_variables(), svg::FIGURE_CSS, &palette::series_css(), &heat::css(), include_str!("style.css")]
+            .concat();
     let name = results.scenes.first().filter(|_| one).map(|s| s.scene.name.as_str());
     let page = context! {
         lang => language.tag(), t => t.to_value(), name => results.name.as_str(),

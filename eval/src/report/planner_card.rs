@@ -8,9 +8,10 @@ use minijinja::{Value, context};
 use super::camera::{Camera, polyline};
 use super::language::Strings;
 use super::svg::{Picture, cross_mark, escape, optimum_line, picture};
-use super::{palette, tables};
+use super::{own_picture, palette, tables};
 use crate::format;
 use crate::results::{RunRecord, RunStatus, SceneResult};
+use crate::snapshot::Snapshot;
 use crate::stats::{counted_length, median};
 
 /// What the cards of one scene share.
@@ -23,8 +24,12 @@ pub struct Stage<'a> {
     pub camera: Camera,
     /// Obstacles with numbers round them, markup; `{id}` stands for an id.
     pub backdrop: &'a dyn Fn(&str, bool) -> String,
+    /// The obstacles alone, for pictures with something below them.
+    pub obstacles: &'a dyn Fn(&str) -> String,
     /// Most runs drawn into one picture.
     pub drawn: usize,
+    /// Last frames of runs in this scene.
+    pub snapshots: &'a [&'a Snapshot],
 }
 
 /// The card of planner `index`; `id` is unique in the page.
@@ -35,6 +40,7 @@ pub fn card(stage: &Stage<'_>, label: &str, index: usize, runs: &[&RunRecord], i
         label, swatch => Value::from_safe_string(palette::swatch(index)),
         best_svg => Value::from_safe_string(best_svg), best_text,
         all_svg => Value::from_safe_string(all_svg), all_text,
+        own => own_picture::figures(stage, label, index, runs, &format!("{id}-own"), t),
         tally => tally(runs, t), errors => errors(runs, t), rows => tables::runs(runs, t),
         failed => runs.iter().all(|r| !r.valid),
     }
@@ -168,7 +174,7 @@ fn overlay(
 
 fn figure(stage: &Stage<'_>, id: &str, title: &str, desc: &str, lines: &str, words: bool, t: &Strings) -> String {
     let backdrop = (stage.backdrop)(id, words);
-    let what = Picture { id, title, desc, backdrop: &backdrop, lines, words };
+    let what = Picture { id, title, desc, backdrop: &backdrop, lines, words, foot: ("", 0.0) };
     picture(&stage.scene.scene, &stage.camera, t, &what)
 }
 

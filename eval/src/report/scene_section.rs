@@ -3,15 +3,16 @@
 use env_model::World;
 use minijinja::{Value, context};
 
-use super::backdrop::backdrop;
+use super::backdrop::{backdrop, obstacles};
 use super::camera::Camera;
 use super::convergence::{self, Series};
 use super::language::Strings;
 use super::planner_card::{Stage, card, miniature, reference};
 use super::strip::{self, Row};
-use super::tables;
+use super::{fitness, pareto, tables};
 use crate::format;
 use crate::results::{Results, RunRecord, SceneResult};
+use crate::snapshot::Snapshot;
 use crate::stats::counted_length;
 
 /// Runs drawn into one full picture; the page stays within some megabytes.
@@ -47,11 +48,16 @@ pub fn section(results: &Results, index: usize, extent: Extent, t: &Strings) -> 
     let own = |id: &str, words: bool| backdrop(&scene.scene, &camera, t, id, words);
     let refer = |_: &str, words: bool| reference(&format!("scene-{index}-{}", if words { "full" } else { "bare" }));
     let world = World::new(&scene.scene).ok();
+    let own_obstacles = |id: &str| obstacles(&scene.scene, &camera, id);
+    let refer_obstacles = |_: &str| reference(&format!("scene-{index}-full-o-obstacles"));
+    let snapshots: Vec<&Snapshot> = results.snapshots.iter().filter(|s| s.scene == name).collect();
     let stage = Stage {
         scene,
         world: world.as_ref(),
         camera,
         backdrop: if shared { &refer } else { &own },
+        obstacles: if shared { &refer_obstacles } else { &own_obstacles },
+        snapshots: &snapshots,
         drawn: if extent == Extent::Full { DRAWN } else { DRAWN_SMALL },
     };
     let copies = if shared && extent != Extent::Table {
@@ -76,6 +82,7 @@ pub fn section(results: &Results, index: usize, extent: Extent, t: &Strings) -> 
         Vec::new()
     };
     let mut charts = (None, None, None);
+    let mut own = (None, None);
     if extent == Extent::Full {
         let series: Vec<Series<'_>> =
             with_runs().map(|((index, p), runs)| Series { label: &p.label, index, runs: runs.clone() }).collect();
@@ -83,6 +90,9 @@ pub fn section(results: &Results, index: usize, extent: Extent, t: &Strings) -> 
         charts.0 = convergence::figure(&id("convergence", 0), &series, scene.optimum.length, unit, t);
         charts.1 = spread(results, &[scene], &id("spread", 0), t);
         charts.2 = times(results, Some(name), &id("time", 0), t);
+        own.0 = pareto::figure(&id("pareto", 0), &series, unit, t);
+        let place = |label: &str| results.planners.iter().position(|p| p.label == label);
+        own.1 = fitness::figure(&id("fitness", 0), &snapshots, place, t);
     }
     let one = results.scenes.len() == 1;
     context! {
@@ -91,7 +101,7 @@ pub fn section(results: &Results, index: usize, extent: Extent, t: &Strings) -> 
         known => !scene.optimum.path.is_empty(),
         table => if one { Value::from(()) } else { tables::comparison(results, Some(name), &scene.scene.unit, t) },
         copies => Value::from_safe_string(copies),
-        cards, miniatures, convergence => charts.0, spread => charts.1, times => charts.2,
+        cards, miniatures, convergence => charts.0, pareto => own.0, fitness => own.1, spread => charts.1, times => charts.2,
         more => by_planner.iter().any(|r| r.len() > DRAWN_SMALL), small_drawn => DRAWN_SMALL,
         full => extent == Extent::Full, runs => by_planner.iter().map(Vec::len).sum::<usize>(),
     }

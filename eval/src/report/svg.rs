@@ -110,11 +110,13 @@ pub(super) struct Picture<'a> {
     pub lines: &'a str,
     /// Whether to write numbers and words into it.
     pub words: bool,
+    /// What stands below the drawing area, and how high it is.
+    pub foot: (&'a str, f64),
 }
 
 /// A figure inside a page, which holds the style rules.
 pub(super) fn picture(scene: &Scene, camera: &Camera, t: &Strings, what: &Picture<'_>) -> String {
-    let (w, h) = (LEFT + WIDTH + RIGHT, TOP + camera.height() + BOTTOM);
+    let (w, h) = (LEFT + WIDTH + RIGHT, TOP + camera.height() + BOTTOM + what.foot.1);
     // Without numbers at the border the margins are empty: cut them off.
     let view = if what.words {
         format!("0 0 {w} {h:.0}")
@@ -123,12 +125,13 @@ pub(super) fn picture(scene: &Scene, camera: &Camera, t: &Strings, what: &Pictur
     };
     let id = what.id;
     format!(
-        r#"<svg class="fig" viewBox="{view}" role="img" aria-labelledby="{id}-t {id}-d"><title id="{id}-t">{}</title><desc id="{id}-d">{}</desc>{}{}{}</svg>"#,
+        r#"<svg class="fig" viewBox="{view}" role="img" aria-labelledby="{id}-t {id}-d"><title id="{id}-t">{}</title><desc id="{id}-d">{}</desc>{}{}{}{}</svg>"#,
         escape(what.title),
         escape(what.desc),
         what.backdrop,
         clipped(id, camera, what.lines),
         ends(scene, camera, t, what.words),
+        what.foot.0,
     )
 }
 

@@ -5,6 +5,7 @@ use env_model::{Obstacle, Point, Scene, Shape};
 use super::svg::{PathLayer, scene_svg};
 use super::*;
 use crate::results::{Optimum, PlannerInfo, Progress, RunRecord, RunStatus};
+use crate::snapshot::{Heat, Mesh, Ruler, Snapshot, State, Tree};
 
 /// A run with a path of that length, or without path.
 pub fn run(scene: &str, planner: &str, repeat: u32, length: Option<f64>) -> RunRecord {
@@ -27,6 +28,8 @@ pub fn run(scene: &str, planner: &str, repeat: u32, length: Option<f64>) -> RunR
         time_us: 12.5,
         cpu_us: 12.0,
         error: None,
+        cost: length,
+        terms: Vec::new(),
         path,
         progress: Vec::new(),
     }
@@ -77,6 +80,7 @@ fn results(planners: &[&str], scenes: &[&str], repeats: u32) -> Results {
         planners: planners.iter().map(planner).collect(),
         scenes: scenes.iter().map(|s| SceneResult { scene: scene(s), optimum: optimum.clone() }).collect(),
         runs,
+        snapshots: Vec::new(),
         manifest: Manifest { version: "0.1.0".into(), jobs: 1, cores: 2, ..Manifest::default() },
     }
 }
@@ -142,6 +146,91 @@ fn the_page_holds_every_planner_and_figure() {
         // Two pictures a planner, convergence, gaps, times.
         assert_eq!(page.matches("<figcaption>").count(), 3 * 2 + 3);
         assert_eq!(page.matches("class=\"fig").count(), 3 * 2 + 3);
+    }
+}
+
+/// Every kind of state, as small as it gets, and as odd as a damaged record may hold it.
+fn states() -> Vec<State> {
+    let mesh = |columns, rows| Mesh { min: [-1.0, -6.0], size: 3.0, columns, rows, every: 2 };
+    let line = vec![[0, 0], [9000, 9000], [20_000, 12_000]];
+    let heat = |levels| Heat { quantity: "risk".to_owned(), log: false, min: 0.0, max: 100.0, levels };
+    let cells = |mesh, marks: &str, heat| State::Cells {
+        mesh,
+        marks: marks.to_owned(),
+        heat,
+        borders: vec![[[0, 0], [100, 100]]],
+        path: line.clone(),
+    };
+    let tree = |parents| Tree { nodes: line.clone(), parents, total: 99 };
+    vec![
+        State::Swarm {
+            rectangle: line.clone(),
+            particles: vec![line.clone(), Vec::new()],
+            bests: vec![line.clone()],
+            best: line.clone(),
+            total: 300,
+        },
+        cells(mesh(4, 3), "#ox.#ox.#ox.", Some(heat(vec![0, 255, 254, 127, 1, 2, 3, 4, 5, 6, 7, 8]))),
+        cells(mesh(4, 3), "#o", Some(Heat { log: true, min: 1e-120, quantity: "<b>".to_owned(), ..heat(vec![3]) })),
+        cells(mesh(0, 3), "", None),
+        State::Trees(vec![tree(vec![0, 0, 1]), tree(vec![1, 2, 1]), tree(vec![7])]),
+        State::Population { paths: vec![line.clone(); 3], mesh: Some(mesh(2, 2)), best: line.clone(), total: 3 },
+        State::Forces { mesh: mesh(4, 3), directions: vec![[70, 70]; 12], trail: line.clone(), stuck: Some([5, 5]) },
+        State::Forces { mesh: mesh(4, 3), directions: vec![[70, 70]], trail: Vec::new(), stuck: None },
+    ]
+}
+
+#[test]
+fn what_planners_did_is_drawn() {
+    let states = states();
+    let labels: Vec<String> = (0..states.len()).map(|i| format!("planner-{i}")).collect();
+    let labels: Vec<&str> = labels.iter().map(String::as_str).collect();
+    let mut results = results(&labels, &["one", "two", "three", "four"], 2);
+    for obstacles in [1, 200] {
+        results.snapshots.clear();
+        for scene in &mut results.scenes {
+            let disc = |k: usize| Obstacle::disc(Point::new(3.0, 3.0 + 0.01 * k as f64), 1.0);
+            scene.scene.obstacles = (0..obstacles).map(disc).collect();
+            results.snapshots.extend(states.iter().zip(&labels).map(|(state, label)| Snapshot {
+                scene: scene.scene.name.clone(),
+                planner: (*label).to_owned(),
+                repeat: 1,
+                seed: 1001,
+                stage: "stage".to_owned(),
+                iteration: 12,
+                evaluations: 345,
+                faithful: *label != "planner-0",
+                ruler: Ruler { origin: [0.0, 0.0], step: 0.0005 },
+                state: state.clone(),
+                generations: if matches!(state, State::Population { .. }) {
+                    vec![(0, 0.5, 0.25), (12, 0.75, 0.5)]
+                } else {
+                    Vec::new()
+                },
+            }));
+        }
+        for language in [Language::English, Language::Chinese] {
+            let page = html(&results, language);
+            check(&page);
+            // In the three scenes that are shown in full, not in the fourth.
+            assert_eq!(page.matches("<figure class=\"own\">").count(), 3 * states.len());
+            assert_eq!(page.matches("class=\"heat bar\"").count(), 3 * 2);
+            assert_eq!(page.matches("class=\"line c5 mean\"").count(), 3);
+        }
+        let page = html(&results, Language::English);
+        let said = [
+            (
+                "the run and the frame",
+                "after 12 iterations and 345 evaluations, from an untimed replay of repeat 1 (seed 1001)",
+            ),
+            ("another path", "The replay's path differs"),
+            ("what is left out", "Only the first 2 of 300 are drawn."),
+            ("an unknown quantity", "Colour is &lt;b&gt;, from 10⁻¹²⁰ to 100"),
+            ("where it is stuck", "The cross marks (0.0025, 0.0025)"),
+        ];
+        for (what, words) in said {
+            assert!(page.contains(words), "{what}");
+        }
     }
 }
 
