@@ -6,9 +6,9 @@ use planner_api::{Planner, SettingError};
 use planner_baseline::{RandomSearch, StraightLine, StraightLineSettings};
 use planner_genetic::{GridGa, VertexGa};
 use planner_grid_search::GridSearch;
+use planner_influence_astar::InfluenceAstar;
 use planner_neural::Neural;
 use planner_potential_field::PotentialField;
-use planner_influence_astar::InfluenceAstar;
 use planner_pso::Pso;
 use planner_qp::{Classes, Qp};
 use planner_quantum_ga::QuantumGa;
@@ -151,10 +151,14 @@ pub fn kinds() -> &'static [Kind] {
             summary: "Quantum-inspired evolution of the bits of heights on the columns of the 2012 paper",
             source: "Han & Kim 2002, IEEE Trans. Evolutionary Computation 6(6), 580-593",
             make: |settings| plain(settings, QuantumGa::new),
+        },
+        Kind {
             name: "influence-astar",
             summary: "A* on cells that weighs length against the risk of the defenders' influence regions",
             source: "Wang & Zhu 2018, Computer Systems & Applications 27(1), 189-194",
             make: |settings| plain(settings, InfluenceAstar::new),
+        },
+        Kind {
             name: "ant-colony",
             summary: "Ant System on a grid of cells, loops cut out of tours",
             source: "Dorigo, Maniezzo & Colorni 1996, IEEE Trans. Systems, Man, and Cybernetics B 26(1), 29-41",
