@@ -161,5 +161,5 @@ pub fn scene(name: &str) -> Scene {
 
 pub fn campaign(planners: Vec<PlannerEntry>) -> Campaign {
     let scenes = vec![scene("b-scene"), scene("a-scene")];
-    Campaign::new(Comparison { name: "test".into(), seed: 3, repeats: 5, scenes, planners }).unwrap()
+    Campaign::new(Comparison { name: "test".into(), seed: 3, repeats: 5, scenes, planners, notes: Vec::new() }).unwrap()
 }

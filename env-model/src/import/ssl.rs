@@ -27,6 +27,9 @@ use capture::{Captures, MOST_CAMERAS};
 use geometry::Geometry;
 use messages::{DetectionFrame, DetectionRobot, Referee, WrapperPacket};
 
+/// In logs that do not say: blue defends the half of x < 0.
+const BLUE_ATTACKS: Side = Side::Right;
+
 /// One of the two teams.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -81,9 +84,9 @@ pub struct Request<'a> {
 ///
 /// Vision does not say which goal a team attacks. Unless [`Request::attack`] does, the
 /// last word of the referee before the frame counts, or else the first after it; in a log
-/// without a referee the team that stands further to the left (mean x) in the first
-/// frame with robots of both teams attacks the right goal in the whole log, as teams
-/// line up in their own halves, and a note says so.
+/// without a referee blue attacks the right goal (the referee's `blue_team_on_positive_half`
+/// at its default), and a note says so. It is not guessed from where the robots
+/// stand, which would change from frame to frame.
 ///
 /// Errors: a log that cannot be read, with the byte; a frame that the log has not or in
 /// which the robot is missing, or that makes no valid scene.
@@ -114,9 +117,7 @@ struct Match {
     count: u64,
     /// The wanted ones.
     frames: BTreeMap<u64, Frame>,
-    /// The goal that blue attacks, by where the teams first stand.
-    blue_attacks: Side,
-    /// The same, by the referee's first word.
+    /// The goal that blue attacks, by the referee's first word.
     first_referee: Option<Side>,
 }
 
@@ -139,7 +140,7 @@ struct Seen {
 impl Match {
     fn read(file: &str, log: impl Read, wanted: &[u64]) -> Result<Self, ImportError> {
         let wanted: BTreeSet<u64> = wanted.iter().copied().collect();
-        let mut seen = Sightings { captures: Captures::new(), frames: BTreeMap::new(), lineup: Lineup::default() };
+        let mut seen = Sightings { captures: Captures::new(), frames: BTreeMap::new() };
         let (mut geometry, mut referee, mut first_referee) = (None, None, None);
         let mut log = log::Log::open(file, log)?;
         while let Some(log::Message { kind, place, payload }) = log.next()? {
@@ -167,23 +168,22 @@ impl Match {
             let message = "the log ends without the size of the pitch; expected a packet with geometry".to_owned();
             return Err(ImportError::Log { file: file.to_owned(), place: log.place(), message });
         };
-        let Sightings { captures, frames, mut lineup } = seen;
-        lineup.end_frame();
-        Ok(Self { geometry, count: captures.count(), frames, blue_attacks: lineup.attack(), first_referee })
+        let Sightings { captures, frames } = seen;
+        Ok(Self { geometry, count: captures.count(), frames, first_referee })
     }
     /// The goal that the request's team attacks.
     fn attack(&self, frame: &Frame, request: &Request<'_>) -> Side {
-        let blue = frame.referee.or(self.first_referee).unwrap_or(self.blue_attacks);
+        let blue = frame.referee.or(self.first_referee).unwrap_or(BLUE_ATTACKS);
         request.attack.unwrap_or(request.team.attacks(blue))
     }
 
     /// A note, when the goal is only guessed.
     fn guess(&self, request: &Request<'_>) -> Option<String> {
         let said = request.target.is_some() || request.attack.is_some() || self.first_referee.is_some();
-        let side = request.team.attacks(self.blue_attacks);
+        let side = request.team.attacks(BLUE_ATTACKS);
         (!said).then(|| {
             format!(
-                "{}: no referee in the log, so {} is taken to attack the {} goal by where the teams first stand; \
+                "{}: the log does not say who defends which half; {} is taken to attack the {} goal, \
                  attack = \"{}\" says otherwise",
                 request.name,
                 request.team.name(),
@@ -228,7 +228,6 @@ impl Match {
 struct Sightings {
     captures: Captures,
     frames: BTreeMap<u64, Frame>,
-    lineup: Lineup,
 }
 
 impl Sightings {
@@ -246,11 +245,7 @@ impl Sightings {
         let camera = camera.ok_or_else(|| {
             format!("a camera_id of {}; expected less than {MOST_CAMERAS}", detection.camera_id.unwrap_or_default())
         })?;
-        let before = self.captures.count();
         let number = self.captures.frame_of(camera, time);
-        if self.captures.count() > before {
-            self.lineup.end_frame();
-        }
         let mut frame = wanted.contains(&number).then(|| {
             let new = || Frame { place, robots: BTreeMap::new(), unnumbered: Vec::new(), referee };
             self.frames.entry(number).or_insert_with(new)
@@ -258,7 +253,6 @@ impl Sightings {
         for (team, robots) in [(Team::Blue, &detection.robots_blue), (Team::Yellow, &detection.robots_yellow)] {
             for robot in robots {
                 let seen = Seen::new(robot).ok_or("a robot without confidence, x or y; expected all three")?;
-                self.lineup.add(team, seen.at[0]);
                 if let Some(frame) = &mut frame {
                     frame.add(team, robot.robot_id, seen);
                 }
@@ -296,40 +290,5 @@ impl Frame {
             format!("{} {numbers}", team.name())
         };
         format!("{}; {}", of(Team::Blue), of(Team::Yellow))
-    }
-}
-
-/// Who stands where at the beginning, for logs without a referee.
-#[derive(Default)]
-struct Lineup {
-    /// Sum and number of x in the open frame, blue then yellow.
-    open: [(f64, u32); 2],
-    /// The goal that blue attacks by the first frame with any robot, and by the first with both teams.
-    any: Option<Side>,
-    both: Option<Side>,
-}
-
-impl Lineup {
-    fn add(&mut self, team: Team, x: f64) {
-        let (sum, count) = &mut self.open[team as usize];
-        *sum += x;
-        *count += 1;
-    }
-
-    fn end_frame(&mut self) {
-        let open = std::mem::take(&mut self.open);
-        // A team that is not seen is taken to be in the middle.
-        let mean = |(sum, count): (f64, u32)| sum / f64::from(count.max(1));
-        let side = if mean(open[0]) <= mean(open[1]) { Side::Right } else { Side::Left };
-        match open.map(|(_, count)| count > 0) {
-            [true, true] => self.both = self.both.or(Some(side)),
-            [false, false] => {}
-            _ => self.any = self.any.or(Some(side)),
-        }
-    }
-
-    /// The goal that blue attacks.
-    fn attack(&self) -> Side {
-        self.both.or(self.any).unwrap_or(Side::Right)
     }
 }

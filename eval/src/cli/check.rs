@@ -31,7 +31,8 @@ fn check_one(file: &Path) -> Result<String, Error> {
         .is_ok_and(|t| ["planner", "scenes", "repeats", "budget"].iter().any(|key| t.contains_key(*key)));
     if is_comparison {
         let comparison = Comparison::from_toml(&path, &text, &Disk::beside(file))?;
-        let Comparison { name, repeats, scenes, planners, .. } = &comparison;
+        let Comparison { name, repeats, scenes, planners, notes, .. } = &comparison;
+        notes.iter().for_each(|note| eprintln!("note: {note}"));
         Ok(format!("comparison {name}, {} planners, {} scenes, {repeats} repeats", planners.len(), scenes.len()))
     } else {
         let scene = Scene::from_toml(&path, &text)?;

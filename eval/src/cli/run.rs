@@ -30,6 +30,7 @@ pub(super) fn run(args: &RunArgs) -> Result<ExitCode, Error> {
     let jobs = usize::from(args.jobs);
     let folder = output::choose(args.out.as_deref(), &campaign.comparison.name)?;
     if !args.quiet {
+        campaign.comparison.notes.iter().for_each(|note| eprintln!("note: {note}"));
         say(campaign.size(jobs));
     }
     if args.dry_run {

@@ -1,14 +1,26 @@
 //! Where the scenes of a comparison are read from.
 
+use std::io::{Cursor, Read};
 use std::path::{Path, PathBuf};
 
 /// The name of the embedded comparison.
 pub const EMBEDDED_NAME: &str = "lu-sun-2012.toml (embedded)";
 
+/// A file's name for messages, and its bytes.
+pub type Opened = (String, Box<dyn Read>);
+
 /// Reads files named relative to a comparison.
 pub trait Files {
+    /// Opens a file.
+    fn open(&self, relative: &str) -> Result<Opened, String>;
+
     /// The file's name for messages and its text.
-    fn read(&self, relative: &str) -> Result<(String, String), String>;
+    fn read(&self, relative: &str) -> Result<(String, String), String> {
+        let (name, mut reader) = self.open(relative)?;
+        let mut text = String::new();
+        reader.read_to_string(&mut text).map_err(|e| format!("cannot read {name}: {e}"))?;
+        Ok((name, text))
+    }
 }
 
 /// Files in and under the folder of a comparison on disk.
@@ -24,10 +36,10 @@ impl Disk {
 }
 
 impl Files for Disk {
-    fn read(&self, relative: &str) -> Result<(String, String), String> {
+    fn open(&self, relative: &str) -> Result<Opened, String> {
         let path = self.folder.join(relative);
-        let text = std::fs::read_to_string(&path).map_err(|e| format!("cannot read {}: {e}", path.display()))?;
-        Ok((path.display().to_string(), text))
+        let file = std::fs::File::open(&path).map_err(|e| format!("cannot read {}: {e}", path.display()))?;
+        Ok((path.display().to_string(), Box::new(file)))
     }
 }
 
@@ -41,9 +53,11 @@ impl Embedded {
 }
 
 impl Files for Embedded {
-    fn read(&self, relative: &str) -> Result<(String, String), String> {
+    fn open(&self, relative: &str) -> Result<Opened, String> {
         match relative {
-            "../scenes/lu-sun-2012.toml" => Ok(("lu-sun-2012.toml (embedded scene)".into(), Self::SCENE.into())),
+            "../scenes/lu-sun-2012.toml" => {
+                Ok(("lu-sun-2012.toml (embedded scene)".into(), Box::new(Cursor::new(Self::SCENE))))
+            }
             _ => Err(format!("no embedded file {relative}")),
         }
     }

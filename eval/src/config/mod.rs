@@ -13,9 +13,12 @@
 //! budget = { evaluations = 8000 }   # replaces single keys of the common budget
 //! ```
 //!
-//! Paths are relative to the file.
+//! Paths are relative to the file. Scenes also come from match logs, see [`env_model::import`]:
+//! `{ rcg = "game.rcg.gz", cycles = [120, 480], side = "left" }` and
+//! `{ ssl-log = "game.log.gz", frames = [10], team = "blue", robot = 3 }`.
 
 mod files;
+mod logs;
 mod planners;
 mod scenes;
 #[cfg(test)]
@@ -30,7 +33,7 @@ use serde::de::IgnoredAny;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-pub use files::{Disk, EMBEDDED_NAME, Embedded, Files};
+pub use files::{Disk, EMBEDDED_NAME, Embedded, Files, Opened};
 pub use planners::{BudgetSpec, Factory, PlannerEntry, from_settings, single};
 pub use scenes::refuse_motion;
 
@@ -46,6 +49,8 @@ pub struct Comparison {
     pub scenes: Vec<Scene>,
     /// The planners in the file's order, labels unique.
     pub planners: Vec<PlannerEntry>,
+    /// What a reader ought to know of how the scenes came about.
+    pub notes: Vec<String>,
 }
 
 /// The file's own keys. `scenes` and `planner` are read by hand for the sake of their places.
@@ -98,8 +103,8 @@ impl Comparison {
             None => BudgetSpec::default(),
         };
         let planners = planners::read(&source, entries.remove("planner"), budget)?;
-        let scenes = scenes::read(&source, entries.remove("scenes"), files)?;
-        Ok(Self { name: name.clone(), seed, repeats, scenes, planners })
+        let (scenes, notes) = scenes::read(&source, entries.remove("scenes"), files)?;
+        Ok(Self { name: name.clone(), seed, repeats, scenes, planners, notes })
     }
 
     /// Keeps only the planners of these labels, in the file's order; `Err` names the first label that is none.

@@ -1,4 +1,4 @@
-//! The `scenes` of a comparison: files and generators.
+//! The `scenes` of a comparison: files, generators, match logs.
 
 use env_model::generate::{Generator, Request};
 use env_model::source::Source;
@@ -7,9 +7,11 @@ use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::{Files, from_table};
+use super::{Files, from_table, logs};
 
-const EXPECTED: &str = "a path or { generate = \"wall\", count = 20, obstacles = 21, seed = 2 }";
+const EXPECTED: &str = "a path or { generate = \"wall\", count = 20, obstacles = 21, seed = 2 }, \
+    { rcg = \"game.rcg.gz\", cycles = [120], side = \"left\" }, \
+    { ssl-log = \"game.log.gz\", frames = [10], team = \"blue\", robot = 3 }";
 /// More would be a slip of the pen.
 const MOST: u32 = 100_000;
 
@@ -27,8 +29,8 @@ pub(super) fn read(
     source: &Source<'_>,
     value: Option<Spanned<DeValue<'_>>>,
     files: &dyn Files,
-) -> Result<Vec<Scene>, FileError> {
-    let Some(value) = value else { return Ok(Vec::new()) };
+) -> Result<(Vec<Scene>, Vec<String>), FileError> {
+    let Some(value) = value else { return Ok((Vec::new(), Vec::new())) };
     let span = value.span();
     let entries = match value.into_inner() {
         DeValue::Array(entries) => entries,
@@ -37,12 +39,25 @@ pub(super) fn read(
     if entries.is_empty() {
         return Err(source.error_at(span, format!("an empty comparison: no scenes; expected {EXPECTED}")));
     }
-    let mut scenes: Vec<Scene> = Vec::new();
+    let (mut scenes, mut notes): (Vec<Scene>, Vec<String>) = (Vec::new(), Vec::new());
     for entry in entries {
         let span = entry.span();
         let new = match entry.into_inner() {
             DeValue::String(path) => vec![from_file(source, &path, span.clone(), files)?],
-            DeValue::Table(table) => generated(source, Spanned::new(span.clone(), table))?,
+            DeValue::Table(table) => {
+                let table = Spanned::new(span.clone(), table);
+                match logs::read(source, &table, files)? {
+                    Some(imported) => {
+                        notes.extend(imported.notes);
+                        imported.scenes
+                    }
+                    None if table.get_ref().contains_key("generate") => generated(source, table)?,
+                    None => {
+                        let message = format!("neither generate nor rcg nor ssl-log; expected {EXPECTED}");
+                        return Err(source.error_at(span, message));
+                    }
+                }
+            }
             other => return Err(source.error_at(span, format!("found {}; expected {EXPECTED}", other.type_str()))),
         };
         for scene in new {
@@ -56,7 +71,7 @@ pub(super) fn read(
             scenes.push(scene);
         }
     }
-    Ok(scenes)
+    Ok((scenes, notes))
 }
 
 fn from_file(

@@ -1,3 +1,6 @@
+use std::io::Cursor;
+use std::path::Path;
+
 use super::*;
 
 const GOOD: &str = r#"name = "demo"
@@ -20,16 +23,22 @@ goal = [10.0, 0.0]
 disc = { centre = [5.0, 0.0], radius = 1.0 }
 "#;
 
-/// Scenes in memory.
+const RCG: &str = "ULG6
+(show 7 ((b) 1 2 0 0) ((l 2) 1 0x1 0 2 0 0 0 0) ((r 2) 1 0x1 2 2.5 0 0 0 0))
+(show 9 ((b) 1 2 0 0) ((l 2) 1 0x1 3 2 0 0 0 0) ((r 2) 1 0x1 3 2.5 0 0 0 0))
+(show 10 ((b) 1 2 0 0) ((r 2) 1 0x1 2 2.5 0 0 0 0))
+";
+
+/// Scenes and logs in memory, and the project's own data.
 struct Memory;
 
 impl Files for Memory {
-    fn read(&self, relative: &str) -> Result<(String, String), String> {
+    fn open(&self, relative: &str) -> Result<Opened, String> {
         let scene = |from: &str, to: &str| {
             assert!(SCENE.contains(from));
-            Ok((relative.to_owned(), SCENE.replace(from, to)))
+            SCENE.replace(from, to)
         };
-        match relative {
+        let text = match relative {
             "a.toml" => scene("a", "a"),
             "b.toml" => scene("\"a\"", "\"b\""),
             "inside.toml" => scene("start = [0.0", "start = [5.5"),
@@ -37,8 +46,14 @@ impl Files for Memory {
             "bow-tie.toml" => {
                 scene("disc = { centre = [5.0, 0.0], radius = 1.0 }", "polygon = [[1, 1], [2, 2], [2, 1], [1, 2]]")
             }
-            _ => Err(format!("cannot read {relative}: no such file")),
-        }
+            "logs/game.rcg" => RCG.to_owned(),
+            "cut.rcg.gz" => RCG[..100].to_owned(),
+            _ if relative.starts_with("data/") => {
+                return Disk::beside(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../configs/x"))).open(relative);
+            }
+            _ => return Err(format!("cannot read {relative}: no such file")),
+        };
+        Ok((relative.to_owned(), Box::new(Cursor::new(text))))
     }
 }
 
@@ -67,12 +82,13 @@ fn a_good_file_is_understood_in_its_own_order() {
 fn the_resolved_file_says_everything_and_reads_back() {
     struct Copies<'c>(&'c Comparison);
     impl Files for Copies<'_> {
-        fn read(&self, relative: &str) -> Result<(String, String), String> {
+        fn open(&self, relative: &str) -> Result<Opened, String> {
             let i = self.0.scene_files().iter().position(|f| f == relative).ok_or("no such copy")?;
-            Ok((relative.to_owned(), self.0.scenes[i].to_toml()))
+            Ok((relative.to_owned(), Box::new(Cursor::new(self.0.scenes[i].to_toml()))))
         }
     }
-    let text = GOOD.replace("[planner.swarm]", "[planner.\"a.b c\"]\nkind = \"pso-qp\"\n[planner.swarm]");
+    let text = GOOD.replace("\"a.toml\",", "\"a.toml\", { rcg = \"logs/game.rcg\", cycles = [7], side = \"right\" },");
+    let text = text.replace("[planner.swarm]", "[planner.\"a.b c\"]\nkind = \"pso-qp\"\n[planner.swarm]");
     let first = read(&text).unwrap();
     let resolved = first.to_toml();
     let second =
@@ -135,6 +151,71 @@ fn mistakes_are_named_with_their_place() {
     for (from, to, expected) in cases {
         assert!(GOOD.contains(from), "{from}");
         let message = read(&GOOD.replacen(from, to, 1)).err().unwrap_or_else(|| panic!("{to}: accepted"));
+        assert!(message.starts_with(expected), "{to}:\n  {message}\n  {expected}");
+    }
+}
+
+fn with_source(scene: &str) -> Result<Comparison, String> {
+    read(&format!("name = \"x\"\nscenes = [{scene}]\n[planner.tangent]"))
+}
+
+#[test]
+fn logs_are_sources_of_scenes() {
+    let names = |scene: &str| {
+        let c = with_source(scene).unwrap_or_else(|e| panic!("{e}"));
+        c.scenes.iter().map(|s| s.name.clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(
+        names("{ rcg = \"logs/game.rcg\", cycles = [10, 7], side = \"right\" }"),
+        ["game-c0010-right", "game-c0007-right"]
+    );
+    assert_eq!(
+        names("{ rcg = \"logs/game.rcg\", cycles = [7], side = \"left\", name = \"final\" }"),
+        ["final-c0007-left"]
+    );
+    let c = with_source("{ rcg = \"logs/game.rcg\", cycles = [9], side = \"left\", target = [-1, 2.5] }").unwrap();
+    assert_eq!((c.scenes[0].start, c.scenes[0].goal), ([3.0, 2.0], [-1.0, 2.5]));
+    assert!(c.notes[0].starts_with("game-c0009-left: opponent 2 overlaps the start by 0.1"), "{:?}", c.notes);
+    assert_eq!(
+        names("{ rcg = \"data/robocup2d-heliosbase-selfplay.rcg.gz\", cycles = [120, 480], side = \"left\" }"),
+        ["robocup2d-heliosbase-selfplay-c0120-left", "robocup2d-heliosbase-selfplay-c0480-left"]
+    );
+    let ssl = "ssl-log = \"data/ssl-divB-6v6-simulated.log.gz\", frames = [10], team = \"blue\", robot = 3";
+    assert_eq!(names(&format!("{{ {ssl} }}")), ["ssl-divB-6v6-simulated-f0010-blue3"]);
+    let c = with_source(&format!("{{ {ssl}, attack = \"left\" }}")).unwrap();
+    assert_eq!((c.scenes[0].goal, c.notes.len()), ([-4.5, 0.0], 0));
+}
+
+#[test]
+fn mistakes_with_logs_are_named_with_their_place() {
+    let rcg = "{ rcg = \"logs/game.rcg\", cycles = [7], side = \"left\", target = [5, 5] }";
+    let ssl = "{ ssl-log = \"data/ssl-divB-6v6-simulated.log.gz\", frames = [10], team = \"blue\", robot = 3 }";
+    let cases = [
+        (rcg, "rcg = ", "rgc = ", "c.toml:2:11: neither generate nor rcg nor ssl-log; expected a path or { generate"),
+        (rcg, "logs/game.rcg", "none.rcg", "c.toml:2:19: cannot read none.rcg: no such file; expected a match log"),
+        (rcg, "logs/game.rcg", "a.toml", "c.toml:2:19: a.toml:1: begins with \"name = \\\"\"; expected ULG4"),
+        (rcg, "logs/game.rcg", "cut.rcg.gz", "c.toml:2:19: cut.rcg.gz:3: the line is cut short"),
+        (rcg, "[7]", "[7, 8]", "c.toml:2:49: logs/game.rcg: cycle 8: not in the log; expected cycles from 7 to 10"),
+        (rcg, "[7]", "[7, 10]", "c.toml:2:49: logs/game.rcg:4: cycle 10: the left side has no player on the field"),
+        (rcg, "[7]", "[7, 7]", "c.toml:2:11: a second scene named \"game-c0007-left\"; expected different names"),
+        (rcg, "[7]", "[]", "c.toml:2:45: 0 cycles; expected 1 to 10000, such as cycles = [120, 480]"),
+        (rcg, "[7]", "[-7]", "c.toml:2:46: invalid value: integer `-7`"),
+        (rcg, "[7]", "7", "c.toml:2:45: invalid type: integer `7`, expected a sequence"),
+        (rcg, "\"left\"", "\"east\"", "c.toml:2:57: unknown variant `east`, expected `left` or `right`"),
+        (rcg, "[5, 5]", "[5]", "c.toml:2:74: a target of 1 numbers; expected two finite ones, [x, y]"),
+        (rcg, "[5, 5]", "[5, nan]", "c.toml:2:74: a target of 2 numbers; expected two finite ones, [x, y]"),
+        (rcg, "[5, 5]", "[2, 2.6]", "c.toml:2:46: logs/game.rcg:2: cycle 7: goal (2.000, 2.600) is 0.5000 inside"),
+        (rcg, "target =", "goal =", "c.toml:2:65: unknown field `goal`, expected one of `rcg`, `cycles`, `side`"),
+        (rcg, ", side = \"left\"", "", "c.toml:2:11: missing field `side`"),
+        (ssl, "[10]", "[10, 700]", "c.toml:2:78: "),
+        (ssl, "\"blue\"", "\"red\"", "c.toml:2:90: unknown variant `red`, expected `blue` or `yellow`"),
+        (ssl, "robot = 3", "robot = 12", "c.toml:2:74: "),
+        (ssl, "robot = 3", "robot = -1", "c.toml:2:106: invalid value: integer `-1`"),
+        (ssl, "ssl-divB", "robocup", "c.toml:2:23: cannot read "),
+    ];
+    for (good, from, to, expected) in cases {
+        assert!(good.contains(from), "{from}");
+        let message = with_source(&good.replacen(from, to, 1)).err().unwrap_or_else(|| panic!("{to}: accepted"));
         assert!(message.starts_with(expected), "{to}:\n  {message}\n  {expected}");
     }
 }
