@@ -62,7 +62,10 @@ impl Planner for GridGa {
             generations: settings.generations,
             stall: settings.stall,
         };
+        // Left empty: room is counted from what they hold.
+        self.spare.clear();
         self.spare.reserve(limits.genes);
+        self.crossing.clear();
         self.crossing.reserve(limits.genes);
         let cells = Cells::new(problem, settings.cells, &mut self.cells)?;
         let mut paths = Paths { settings, cells, spare: &mut self.spare, crossing: &mut self.crossing };
