@@ -75,7 +75,7 @@ impl Network {
     }
 
     /// Sets every neuron once to the equilibrium of its equation,
-    /// x = (B S − D [I]⁻)/(A + S + [I]⁻), S = [I]⁺ + Σ w [x]⁺, in the grid's order
+    /// `x = (B S − D [I]⁻)/(A + S + [I]⁻), S = [I]⁺ + Σ w [x]⁺`, in the grid's order
     /// or against it. Returns the largest change, relative to the new value.
     ///
     /// Gauss–Seidel; alternating orders carry activity across the whole grid in

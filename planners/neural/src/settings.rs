@@ -23,7 +23,7 @@ pub struct NeuralSettings {
     /// E, input at the goal and, negated, at obstacles, > 0. Default 100.
     pub input: f64,
     /// Sweeps over all neurons at most, 1 … 10⁶. Default 1000. They end earlier
-    /// where the state is steady: 10 to 60 sweeps among robots, more in mazes.
+    /// where the state is steady: after about 125 for 100 cells among robots.
     pub sweeps: u64,
     /// The state is steady when a sweep changed no activity by more than this
     /// fraction of its value, 0 to 0.1. Default 10⁻⁶: neighbours' activities

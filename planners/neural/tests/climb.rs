@@ -103,11 +103,14 @@ fn where_activity_leaves_the_range_of_numbers_the_goal_is_not_felt() {
 
 #[test]
 fn ends_beside_obstacles_join_by_free_cells_in_sight() {
-    // The goal's cell is half blocked, so the path enters through a neighbour.
-    let (plan, status) =
-        plan(&scene([10.0, 6.0], [1.2, 2.7], [8.2, 2.2], vec![Obstacle::disc(Point::new(8.7, 2.7), 0.4)]), 10);
+    // Start's and goal's cells are blocked in part: the path joins the grid by neighbours, the start by
+    // the most active one that it sees (not the one straight ahead, which is behind the disc).
+    let beside = |x: f64, y: f64, radius: f64| Obstacle::disc(Point::new(x, y), radius);
+    let obstacles = vec![beside(1.75, 2.75, 0.2), beside(8.7, 2.7, 0.4)];
+    let (plan, status) = plan(&scene([10.0, 6.0], [1.2, 2.7], [8.2, 2.2], obstacles), 10);
     assert_eq!(status, Status::Solved);
     assert_eq!((plan.path[0], plan.path[plan.path.len() - 1]), (Point::new(1.2, 2.7), Point::new(8.2, 2.2)));
+    assert_eq!(plan.path[1].x, 2.5, "{}", plan.path[1]);
     // The same with a wall on either side of the goal: no free cell in sight.
     let left = polygon(&[[7.5, 0.0], [8.1, 0.0], [8.1, 6.0], [7.5, 6.0]]);
     let right = polygon(&[[8.3, 0.0], [8.9, 0.0], [8.9, 6.0], [8.3, 6.0]]);
