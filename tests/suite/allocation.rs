@@ -7,7 +7,7 @@ use crate::scenes;
 
 #[test]
 fn a_second_call_allocates_nothing() {
-    for kind in ["straight-line", "random-search", "pso", "tangent"] {
+    for kind in ["straight-line", "random-search", "pso", "tangent", "rrt-connect", "rrt-star", "informed-rrt-star"] {
         for scene in scenes::all() {
             let world = scenes::world(&scene);
             let problem = Problem::new(&world, scene.start(), scene.goal()).unwrap();

@@ -109,7 +109,7 @@ fn the_same_seed_gives_the_same_plan_again_after_reset_and_in_a_new_planner() {
 fn seeds_matter_to_random_planners() {
     let scene = scenes::paper();
     let world = scenes::world(&scene);
-    for kind in ["pso", "random-search"] {
+    for kind in ["pso", "random-search", "rrt-connect", "rrt-star", "informed-rrt-star"] {
         let mut planner = build_str(kind, "").unwrap().planner;
         let (a, _) = plan(planner.as_mut(), &scene, &world, &mut Run::new(1));
         let (b, _) = plan(planner.as_mut(), &scene, &world, &mut Run::new(2));

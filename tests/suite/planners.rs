@@ -15,6 +15,7 @@ pub fn planners() -> Vec<(String, Box<dyn Planner>)> {
         ("straight-line + qp", "straight-line", "refine = [\"qp\"]"),
         ("tangent + smooth qp", "tangent", "refine = [{ kind = \"qp\", objective = \"smooth\" }]"),
         ("pso-qp, final class", "pso-qp", "classes = \"final\""),
+        ("rrt-connect + qp", "rrt-connect", "refine = [\"qp\"]"),
         ("pso, ring", "pso", "topology = \"ring\"\nbounds = \"reflect\""),
     ] {
         let planner = build_str(kind, settings).unwrap_or_else(|e| panic!("{name}: {e}")).planner;
