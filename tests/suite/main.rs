@@ -1,7 +1,8 @@
-//! Tests that cross crates: every planner of the catalogue against the contract, and golden experiments.
+//! Tests that cross crates: every planner of the catalogue against the contract, golden experiments, and what families promise.
 
 mod allocation;
 mod contract;
 mod golden;
 mod planners;
+mod rrt;
 mod scenes;

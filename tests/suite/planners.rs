@@ -23,6 +23,7 @@ pub fn planners() -> Vec<(String, Box<dyn Planner>)> {
         ("vertex-ga, length", "vertex-ga", "fitness = \"length\""),
         ("potential-field, Ge & Cui + qp", "potential-field", "repulsion = \"ge-cui\"\nrefine = [\"qp\"]"),
         ("neural + qp", "neural", "cells = 60\nrefine = [\"qp\"]"),
+        ("rrt-connect + qp", "rrt-connect", "refine = [\"qp\"]"),
         ("pso, ring", "pso", "topology = \"ring\"\nbounds = \"reflect\""),
         ("pso, von Neumann", "pso", "rule = \"constriction\"\ntopology = \"von-neumann\""),
         ("pso, quantum", "pso", "rule = \"quantum\""),

@@ -35,8 +35,8 @@ impl ConnectSettings {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct StarSettings {
-    /// Samples N, 1 … 10⁷. Default 4000: within about 3 % of the optimum on a pitch
-    /// with 21 obstacles (the papers run as long as there is time).
+    /// Samples N, 1 … 10⁷. Default 4000: within 1 % of the optimum in the median on a
+    /// pitch with 21 obstacles (the papers run as long as there is time).
     pub samples: u64,
     /// Longest step η of Steer and largest radius of Near, as a fraction of the
     /// diagonal of the sampled box, 0.001 … 1. Default 0.2, OMPL's fraction (the

@@ -173,6 +173,30 @@ fn an_empty_world_takes_one_attempt() {
 }
 
 #[test]
+fn ends_that_touch_obstacles_are_left() {
+    // Start and goal on the borders of the discs, which lie between them.
+    let mut scene = paper();
+    (scene.start, scene.goal) = ([224.0, 160.0], [336.0, 230.0]);
+    for mut planner in planners(&StarSettings { samples: 1000, ..StarSettings::default() }) {
+        for seed in 0..5 {
+            let (plan, status) = solve(&mut planner, &scene, seed);
+            assert_eq!(status, Status::Solved, "{} {seed}", planner.name());
+            assert!(World::new(&scene).unwrap().first_violation(&plan.path).is_none());
+        }
+    }
+}
+
+/// Stops at its third frame.
+struct Third(u32);
+
+impl Observer for Third {
+    fn frame(&mut self, _: &Frame<'_>) -> ControlFlow<()> {
+        self.0 += 1;
+        if self.0 == 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}
+
+#[test]
 fn a_closed_room_is_not_found_and_a_budget_returns_the_best_so_far() {
     let mut scene = paper();
     let world = World::new(&scene).unwrap();
@@ -182,6 +206,9 @@ fn a_closed_room_is_not_found_and_a_budget_returns_the_best_so_far() {
         let (plan, status) = planner.plan(&problem, &mut Run::new(1).with_budget(budget)).unwrap();
         assert_eq!((status, plan.counters.evaluations), (Status::BudgetSpent, 900));
         assert!(world.path_free(&plan.path) && plan.path.len() > 2);
+        let mut observer = Third(0);
+        let (plan, status) = planner.plan(&problem, &mut Run::new(1).with_observer(&mut observer)).unwrap();
+        assert_eq!((status, plan.counters.iterations), (Status::BudgetSpent, 2), "frame 0 precedes the samples");
     }
     scene.field = Some(Field { min: [100.0, 100.0], max: [500.0, 300.0] });
     scene.obstacles = vec![Shape::Polygon(vec![[300.0, 90.0], [310.0, 90.0], [310.0, 310.0], [300.0, 310.0]]).into()];
