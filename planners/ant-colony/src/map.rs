@@ -10,7 +10,8 @@ pub(crate) const NONE: u32 = u32::MAX;
 pub(crate) struct Map {
     pub grid: CellGrid,
     pub blocked: Vec<bool>,
-    /// The cells that moves lead to, in the order of [`env_model::grid::MOVES`]; [`NONE`] where there is none.
+    /// The cells that moves lead to, in the order of [`env_model::grid::MOVES`]; [`NONE`] where there is none,
+    /// and everywhere for a blocked cell.
     pub moves: Vec<[u32; 8]>,
     /// η^β of every cell.
     pub nearness: Vec<f64>,
@@ -60,7 +61,8 @@ impl Map {
         self.moves.clear();
         self.nearness.clear();
         for cell in 0..grid.len() {
-            self.moves.push(grid.moves(&self.blocked, cell).map(|to| to.map_or(NONE, |to| to as u32)));
+            let moves = if self.blocked[cell] { [None; 8] } else { grid.moves(&self.blocked, cell) };
+            self.moves.push(moves.map(|to| to.map_or(NONE, |to| to as u32)));
             let distance = (problem.goal - grid.centre(cell)).norm() / grid.size();
             self.nearness.push(libm::pow(1.0 / distance.max(0.5), beta));
         }

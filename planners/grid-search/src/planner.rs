@@ -13,7 +13,8 @@ use crate::search::Search;
 /// checks are the cell–shape tests of the occupancy, the segments tested for sight
 /// and those of the path. The cost is the path's length in scene units. A path
 /// that the search has reached when the budget ends is returned even if not proved
-/// to be the shortest. A deadline is overshot by the building of the grid at most.
+/// to be the shortest. Observers of Dijkstra's algorithm see every cell's distance, +∞
+/// for cells never reached. A deadline is overshot by the building of the grid at most.
 #[derive(Debug, Clone)]
 pub struct GridSearch {
     settings: Settings,
