@@ -97,6 +97,21 @@ fn timeless(csv: &str) -> String {
 }
 
 #[test]
+fn scenes_from_a_log_outlive_it() {
+    let place = Place::new("log");
+    place.write("game.rcg", "ULG6\n(show 7 ((b) 1 2 0 0) ((l 2) 1 0x1 0 2 0 0 0 0) ((r 2) 1 0x1 0.5 2 0 0 0 0))\n");
+    let source = "{ rcg = \"game.rcg\", cycles = [7], side = \"left\" }";
+    place.write("log.toml", &COMPARISON.replace("\"one.toml\"", source));
+    let output = place.run(&["check", "log.toml"]);
+    let note = "note: game-c0007-left: opponent 2 overlaps the start by 0.100000: radius 0.200000 instead of 0.3\n";
+    assert_eq!(text(&output.stderr), note);
+    place.ok(&["run", "log.toml", "--out", "out", "--quiet"]);
+    fs::remove_file(place.0.join("game.rcg")).unwrap();
+    place.ok(&["run", "out/comparison.toml", "--out", "again", "--quiet"]);
+    assert_eq!(timeless(&place.read("again/runs.csv")), timeless(&place.read("out/runs.csv")));
+}
+
+#[test]
 fn a_campaign_leaves_everything_and_can_be_made_again() {
     let place = furnished("campaign");
     let printed = place.ok(&["run", "small.toml", "--out", "out"]);

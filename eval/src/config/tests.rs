@@ -207,10 +207,10 @@ fn mistakes_with_logs_are_named_with_their_place() {
         (rcg, "[5, 5]", "[2, 2.6]", "c.toml:2:46: logs/game.rcg:2: cycle 7: goal (2.000, 2.600) is 0.5000 inside"),
         (rcg, "target =", "goal =", "c.toml:2:65: unknown field `goal`, expected one of `rcg`, `cycles`, `side`"),
         (rcg, ", side = \"left\"", "", "c.toml:2:11: missing field `side`"),
-        (ssl, "[10]", "[10, 700]", "c.toml:2:78: "),
-        (ssl, "\"blue\"", "\"red\"", "c.toml:2:90: unknown variant `red`, expected `blue` or `yellow`"),
-        (ssl, "robot = 3", "robot = 12", "c.toml:2:74: "),
-        (ssl, "robot = 3", "robot = -1", "c.toml:2:106: invalid value: integer `-1`"),
+        (ssl, "[10]", "[10, 700]", "c.toml:2:75: "),
+        (ssl, "\"blue\"", "\"red\"", "c.toml:2:83: unknown variant `red`, expected `blue` or `yellow`"),
+        (ssl, "robot = 3", "robot = 12", "c.toml:2:71: "),
+        (ssl, "robot = 3", "robot = -1", "c.toml:2:99: invalid value: integer `-1`"),
         (ssl, "ssl-divB", "robocup", "c.toml:2:23: cannot read "),
     ];
     for (good, from, to, expected) in cases {
