@@ -3,10 +3,10 @@
 //!
 //! One neuron a cell, joined to its eight neighbours:
 //!
-//! ẋᵢ = −A xᵢ + (B − xᵢ) ([Iᵢ]⁺ + Σⱼ wᵢⱼ [xⱼ]⁺) − (D + xᵢ) [Iᵢ]⁻, wᵢⱼ = μ/dᵢⱼ,
+//! `ẋᵢ = −A xᵢ + (B − xᵢ) ([Iᵢ]⁺ + Σⱼ wᵢⱼ [xⱼ]⁺) − (D + xᵢ) [Iᵢ]⁻`, wᵢⱼ = μ/dᵢⱼ,
 //!
 //! with I = E at the goal, −E at obstacles, 0 elsewhere; dᵢⱼ = 1 or √2 cells;
-//! [a]⁺ = max(a, 0), [a]⁻ = max(−a, 0). Activity stays within [−D, B]. The
+//! `[a]⁺` = max(a, 0), `[a]⁻` = max(−a, 0). Activity stays within [−D, B]. The
 //! goal's spreads through free cells, obstacles' stays where it is. From the
 //! start the path goes on to the neighbour of the highest activity.
 //!
