@@ -32,7 +32,7 @@ fn cost(planner: &mut dyn Planner, world: &World, scene: &Scene, seed: u64, plan
 #[test]
 fn paths_are_found_in_95_of_100_runs() {
     let mut plan = Plan::new();
-    // A failure in 20 runs would be one in twenty just so; measured: none in 400.
+    // Measured: 400 of 400 runs of RRT-Connect, 60 of 60 of the others, on each family.
     for generator in [Generator::Wall, Generator::SslA] {
         let scenes: Vec<Scene> = blocked(generator).take(20).collect();
         for (kind, settings) in
