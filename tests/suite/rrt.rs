@@ -7,13 +7,18 @@ use planner_catalogue::build_str;
 
 use crate::scenes;
 
-/// The first `count` scenes of the generator in which the straight line is blocked.
-fn blocked(generator: Generator, count: usize) -> Vec<Scene> {
+/// The generator's scenes in which the straight line is blocked.
+fn blocked(generator: Generator) -> impl Iterator<Item = Scene> {
     (0..)
-        .map(|index| generate(generator, None, 2, index).unwrap_or_else(|e| panic!("{e}")))
+        .map(move |index| generate(generator, None, 2, index).unwrap_or_else(|e| panic!("{e}")))
         .filter(|scene| !scenes::world(scene).segment_free(scene.start(), scene.goal()))
-        .take(count)
-        .collect()
+}
+
+/// The length of the shortest path, where it can be had: among discs.
+fn optimum(scene: &Scene) -> Option<f64> {
+    let world = scenes::world(scene);
+    let problem = Problem::new(&world, scene.start(), scene.goal()).unwrap();
+    planner_tangent::optimum(&problem).ok().map(|optimum| optimum.length)
 }
 
 /// The cost of a valid path, +∞ without one.
@@ -27,9 +32,9 @@ fn cost(planner: &mut dyn Planner, world: &World, scene: &Scene, seed: u64, plan
 #[test]
 fn paths_are_found_in_95_of_100_runs() {
     let mut plan = Plan::new();
-    // A failure in 20 runs would be one in twenty just so; measured: none in 400.
+    // Measured: 400 of 400 runs of RRT-Connect, 60 of 60 of the others, on each family.
     for generator in [Generator::Wall, Generator::SslA] {
-        let scenes = blocked(generator, 20);
+        let scenes: Vec<Scene> = blocked(generator).take(20).collect();
         for (kind, settings) in
             [("rrt-connect", ""), ("rrt-star", "samples = 1000"), ("informed-rrt-star", "samples = 1000")]
         {
@@ -46,26 +51,22 @@ fn paths_are_found_in_95_of_100_runs() {
 #[test]
 fn twenty_thousand_samples_come_near_the_optimum() {
     let mut plan = Plan::new();
-    for (family, scenes) in [
-        ("paper", vec![scenes::paper(); 3]),
-        ("wall", blocked(Generator::Wall, 3)),
-        ("ssl22", vec![scenes::load("tests/reference/ssl22-00.toml"), scenes::load("tests/reference/ssl22-03.toml")]),
-    ] {
+    let three = |generator| blocked(generator).filter(|scene| optimum(scene).is_some()).take(3).collect();
+    for (family, scenes) in
+        [("paper", vec![scenes::paper(); 3]), ("wall", three(Generator::Wall)), ("ssl-a", three(Generator::SslA))]
+    {
         for kind in ["rrt-star", "informed-rrt-star"] {
             let mut planner = build_str(kind, "samples = 20000").unwrap().planner;
-            let mut gaps: Vec<f64> = scenes
-                .iter()
-                .enumerate()
+            let mut gaps: Vec<f64> = (0..)
+                .zip(&scenes)
                 .map(|(seed, scene)| {
-                    let world = scenes::world(scene);
-                    let problem = Problem::new(&world, scene.start(), scene.goal()).unwrap();
-                    let optimum = planner_tangent::optimum(&problem).unwrap().length;
-                    cost(planner.as_mut(), &world, scene, seed as u64, &mut plan) / optimum - 1.0
+                    let length = cost(planner.as_mut(), &scenes::world(scene), scene, seed, &mut plan);
+                    length / optimum(scene).unwrap() - 1.0
                 })
                 .collect();
             gaps.sort_by(f64::total_cmp);
-            // Promised: 0.05. Medians over 20 runs measured: 0.0017 to 0.0045; twice the worst.
-            assert!(gaps[gaps.len() / 2] < 0.009, "{kind} on {family}: {gaps:?}");
+            // Promised: 0.05. Medians over 20 runs measured: 0.0015 to 0.0045; twice the worst.
+            assert!(gaps[1] < 0.009, "{kind} on {family}: {gaps:?}");
         }
     }
 }
