@@ -69,7 +69,7 @@ fn panel(snapshot: &Snapshot, index: usize, top: f64, x: &Axis) -> String {
         top + 20.0,
         escape(&snapshot.planner)
     );
-    for v in y.ticks(3) {
+    for v in y.ticks(5) {
         let at = y.at(v);
         let _ = write!(
             out,

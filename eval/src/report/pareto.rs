@@ -155,7 +155,7 @@ fn labels(dots: &[Dot<'_>], places: &[(f64, f64)]) -> String {
         });
         if let Some((b, x, y, anchor)) = fits {
             taken.push(b);
-            let _ = write!(out, r#"<text class="row label {anchor}" x="{x:.1}" y="{y:.1}">{}</text>"#, escape(&name));
+            let _ = write!(out, r#"<text class="label {anchor}" x="{x:.1}" y="{y:.1}">{}</text>"#, escape(&name));
         }
     }
     out

@@ -223,7 +223,7 @@ fn what_planners_did_is_drawn() {
                 "the run and the frame",
                 "after 12 iterations and 345 evaluations, from an untimed replay of repeat 1 (seed 1001)",
             ),
-            ("another path", "The replay's path differs"),
+            ("another path", "path differs from the run"),
             ("what is left out", "Only the first 2 of 300 are drawn."),
             ("an unknown quantity", "Colour is &lt;b&gt;, from 10⁻¹²⁰ to 100"),
             ("where it is stuck", "The cross marks (0.0025, 0.0025)"),
