@@ -56,6 +56,7 @@ impl Refiner for Qp {
         if free && self.settings.objective == Objective::Shorten {
             session.cost = env_model::path_length(&plan.path);
             plan.cost = session.cost;
+            plan.terms.clear();
         }
         let mut task =
             Task { settings: &self.settings, problem, plan, free, floor: self.settings.enough(session.cost) };
@@ -66,6 +67,8 @@ impl Refiner for Qp {
         if gained {
             plan.path = path;
             plan.cost = cost;
+            // They were parts of the other planner's cost.
+            plan.terms.clear();
         }
         plan.counters = run.spent;
         Ok(match (stopped, gained, free) {
