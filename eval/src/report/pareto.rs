@@ -11,7 +11,6 @@ use minijinja::{Value, context};
 use super::convergence::Series;
 use super::language::Strings;
 use super::svg::escape;
-use super::tables::with_unit;
 use super::{axis::Axis, chart, palette};
 use crate::format;
 use crate::stats::median;
@@ -31,7 +30,7 @@ struct Dot<'a> {
 }
 
 /// The figure: chart, paragraph and table; `None` with fewer than two points.
-pub fn figure(id: &str, series: &[Series<'_>], unit: &str, t: &Strings) -> Option<Value> {
+pub fn figure(id: &str, series: &[Series<'_>], t: &Strings) -> Option<Value> {
     let mut dots: Vec<Dot<'_>> = series.iter().filter_map(dot).collect();
     if dots.len() < 2 {
         return None;
@@ -60,7 +59,7 @@ pub fn figure(id: &str, series: &[Series<'_>], unit: &str, t: &Strings) -> Optio
         escape(t.get("pareto_risk")),
         chart::RIGHT,
         HEIGHT - 10.0,
-        escape(&with_unit(t.get("pareto_length"), unit))
+        escape(t.get("pareto_length"))
     );
     svg += &staircase(&dots, &x, &y);
     let places: Vec<(f64, f64)> = dots.iter().map(|d| (x.at(d.length), y.at(d.risk))).collect();
@@ -87,9 +86,7 @@ pub fn figure(id: &str, series: &[Series<'_>], unit: &str, t: &Strings) -> Optio
             context! { label => d.label, swatch => Value::from_safe_string(palette::swatch(d.index)), cells }
         })
         .collect();
-    Some(
-        context! { svg => Value::from_safe_string(svg), text, rows, length_head => with_unit(t.get("pareto_length"), unit) },
-    )
+    Some(context! { svg => Value::from_safe_string(svg), text, rows, length_head => t.get("pareto_length") })
 }
 
 /// Medians over the runs that report both terms.
@@ -185,7 +182,7 @@ mod tests {
         let series: Vec<Series<'_>> =
             runs.iter().enumerate().map(|(index, r)| Series { label: labels[index], index, runs: vec![r] }).collect();
         let t = Strings::new(Language::English);
-        let value = figure("x", &series, "m", &t).unwrap();
+        let value = figure("x", &series, &t).unwrap();
         let rows: Vec<Value> = value.get_attr("rows").unwrap().try_iter().unwrap().collect();
         let on: Vec<String> = rows
             .iter()
@@ -196,7 +193,7 @@ mod tests {
         let svg = value.get_attr("svg").unwrap().to_string();
         assert!(svg.contains(">d, e</text>"), "{svg}");
         assert_eq!(svg.matches("class=\"front\"").count(), 4);
-        assert!(figure("x", &series[..1], "m", &t).is_none(), "one point is no scatter");
+        assert!(figure("x", &series[..1], &t).is_none(), "one point is no scatter");
         let plain = run("s", "p", 0, Some(11.0));
         assert!(dot(&Series { label: "plain", index: 0, runs: vec![&plain] }).is_none(), "without the terms");
     }

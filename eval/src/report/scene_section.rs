@@ -90,7 +90,7 @@ pub fn section(results: &Results, index: usize, extent: Extent, t: &Strings) -> 
         charts.0 = convergence::figure(&id("convergence", 0), &series, scene.optimum.length, unit, t);
         charts.1 = spread(results, &[scene], &id("spread", 0), t);
         charts.2 = times(results, Some(name), &id("time", 0), t);
-        own.0 = pareto::figure(&id("pareto", 0), &series, unit, t);
+        own.0 = pareto::figure(&id("pareto", 0), &series, t);
         let place = |label: &str| results.planners.iter().position(|p| p.label == label);
         own.1 = fitness::figure(&id("fitness", 0), &snapshots, place, t);
     }
