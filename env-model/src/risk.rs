@@ -23,10 +23,24 @@ impl RiskMap {
     ///
     /// A defender outside the grid acts from where it stands: only those of its
     /// rings that reach the grid count.
-    pub fn compute(&mut self, grid: &CellGrid, q: Point, defenders: &[Point], delta: f64, kernel: &[f64]) {
+    ///
+    /// `go_on` is asked before each row; when it declines, the map is left half
+    /// done: the levels of the remaining rows are 0. Pass `|| true` to finish.
+    pub fn compute(
+        &mut self,
+        grid: &CellGrid,
+        q: Point,
+        defenders: &[Point],
+        (delta, kernel): (f64, &[f64]),
+        mut go_on: impl FnMut() -> bool,
+    ) {
         self.values.clear();
-        self.values
-            .extend((0..grid.len()).map(|cell| delta * influence::level(q, defenders, grid.centre(cell)) as f64));
+        for row in (0..grid.rows()).take_while(|_| go_on()) {
+            let cells = grid.cell(0, row)..grid.cell(0, row) + grid.columns();
+            let level = |cell| influence::level(q, defenders, grid.centre(cell));
+            self.values.extend(cells.map(|cell| delta * level(cell) as f64));
+        }
+        self.values.resize(grid.len(), 0.0);
         for f in defenders {
             let at = (f - grid.aabb().min) / grid.size();
             let reach = kernel.len() as f64;
@@ -63,7 +77,7 @@ mod tests {
 
     fn risk(defenders: &[Point]) -> Vec<f64> {
         let mut map = RiskMap::default();
-        map.compute(&grid(), Point::new(0.5, 2.5), defenders, 5.0, &KERNEL);
+        map.compute(&grid(), Point::new(0.5, 2.5), defenders, (5.0, &KERNEL), || true);
         map.values().to_vec()
     }
 

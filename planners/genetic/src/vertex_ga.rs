@@ -33,6 +33,8 @@ const COLLIDING: f64 = 0.1;
 pub struct VertexGa {
     settings: VertexGaSettings,
     vertices: Vec<Point>,
+    /// Those of one obstacle.
+    polygon: Vec<Point>,
     seen: Vec<bool>,
     unused: Vec<Gene>,
     evolution: Evolution,
@@ -48,6 +50,7 @@ impl VertexGa {
         Ok(Self {
             settings,
             vertices: Vec::new(),
+            polygon: Vec::new(),
             seen: Vec::new(),
             unused: Vec::new(),
             evolution: Evolution::default(),
@@ -58,8 +61,8 @@ impl VertexGa {
 impl Planner for VertexGa {
     fn plan_into(&mut self, problem: &Problem<'_>, run: &mut Run<'_>, plan: &mut Plan) -> Result<Status, PlanError> {
         plan.clear();
-        let settings = &self.settings;
-        let checks = number_vertices(problem.world, settings.corners, &mut self.vertices);
+        let Self { settings, vertices, polygon, .. } = self;
+        let checks = number_vertices(problem.world, settings.corners, || run.in_time(), vertices, polygon);
         let limits = Limits {
             population: settings.population,
             genes: self.vertices.len(),

@@ -15,14 +15,23 @@ use env_model::{Core, Inflated, Point, Vector, World};
 ///
 /// Left out, because no valid path turns there, are vertices where the robot
 /// cannot stand: inside another obstacle or outside the field. A reflex corner of
-/// a polygon has none: no path turns round it. Returns the number of tests.
-pub fn number_vertices(world: &World, corners: usize, out: &mut Vec<Point>) -> u64 {
+/// a polygon has none: no path turns round it. Stops when `go_on`, asked before
+/// each obstacle, says so. Returns the number of tests.
+pub fn number_vertices(
+    world: &World,
+    corners: usize,
+    mut go_on: impl FnMut() -> bool,
+    out: &mut Vec<Point>,
+    polygon: &mut Vec<Point>,
+) -> u64 {
     out.clear();
-    for obstacle in world.obstacles() {
-        surround(obstacle, corners, world.epsilon(), out);
+    let mut tests = 0;
+    for obstacle in world.obstacles().iter().take_while(|_| go_on()) {
+        polygon.clear();
+        surround(obstacle, corners, world.epsilon(), polygon);
+        tests += polygon.len() as u64;
+        out.extend(polygon.iter().filter(|p| world.point_free(**p)));
     }
-    let tests = out.len() as u64;
-    out.retain(|p| world.point_free(*p));
     tests
 }
 
@@ -89,7 +98,7 @@ mod tests {
 
     fn vertices(world: &World, corners: usize) -> Vec<Point> {
         let mut out = Vec::new();
-        number_vertices(world, corners, &mut out);
+        number_vertices(world, corners, || true, &mut out, &mut Vec::new());
         out
     }
 

@@ -59,7 +59,7 @@ impl Map {
         }
     }
 
-    /// Maps the problem; counts collision checks in `run`.
+    /// Maps the problem; counts collision checks in `run`. Left half done when the run's time is over.
     ///
     /// # Errors
     /// [`PlanError::GridTooCoarse`] where an end sees no free cell.
@@ -68,7 +68,11 @@ impl Map {
         self.grid = CellGrid::covering(&world.extent(), settings.columns, settings.rows);
         let grid = &self.grid;
         list_defenders(world, &mut self.defenders);
-        self.risk.compute(grid, problem.start, &self.defenders, settings.delta, &settings.kernel);
+        let shape = (settings.delta, &settings.kernel[..]);
+        self.risk.compute(grid, problem.start, &self.defenders, shape, || run.in_time());
+        if !run.in_time() {
+            return Ok(());
+        }
         let most = self.risk.values().iter().copied().fold(0.0, f64::max);
         let scale = Scale::new(settings, most);
         self.moves = Moves::new(&scale, settings.dis);

@@ -59,15 +59,15 @@ impl InfluenceAstar {
     /// Searches `space`; writes `plan` whenever a path is cheaper than `best`.
     fn search(&mut self, space: &Space, best: &mut Cost, problem: &Problem<'_>, run: &mut Run<'_>, plan: &mut Plan) {
         let Self { settings, map, barred, estimate, search, cells } = self;
+        let starts = map.ends.starts.len() as u64;
+        if !run.allows_setup(starts) {
+            return;
+        }
         barred.clear();
         barred.extend((0..map.grid.len()).map(|cell| map.blocked[cell] || !space.contains(map.grid.position(cell))));
         estimate.prepare(map, barred);
         let terrain = Terrain { map, barred, estimate };
 
-        let starts = map.ends.starts.len() as u64;
-        if !run.allows_setup(starts) {
-            return;
-        }
         search.begin(&terrain);
         run.spent.evaluations += starts;
         run.report(STAGE, plan.cost, || View::Cells(map.view(search, &plan.path)));
@@ -108,6 +108,10 @@ impl Planner for InfluenceAstar {
     fn plan_into(&mut self, problem: &Problem<'_>, run: &mut Run<'_>, plan: &mut Plan) -> Result<Status, PlanError> {
         plan.clear();
         self.map.prepare(&self.settings, problem, run)?;
+        if run.stopped() {
+            plan.counters = run.spent;
+            return Ok(Status::BudgetSpent);
+        }
         let grid = self.map.grid;
         let whole = Space::whole(&grid);
         let ends = &self.map.ends;

@@ -4,7 +4,8 @@
 //! of its ends keep (`halfplane`); the current path keeps them too, so the
 //! convex programme never costs more, and by convexity the segments between
 //! stay clear. Obstacles that the step meets beyond those join and the round is
-//! solved again. Fixed points need not be local optima: a segment that touches
+//! solved again. To shorten, a path of many vertices is thinned first: a solve takes
+//! as long as it has unknowns, and no deadline can interrupt it. Fixed points need not be local optima: a segment that touches
 //! a disc inside its length cannot turn about the contact.
 
 use std::collections::BTreeSet;
@@ -24,6 +25,9 @@ const LEAST_LENGTH: f64 = 1e-3;
 
 /// Steps shrink slowly here: the descent ends at this many times the tolerance.
 const CREEP: f64 = 1e4;
+
+/// Shortening thins a longer path to about this many vertices: a solve stays below a millisecond.
+const MOST_VERTICES: usize = 16;
 
 /// The convex pieces of all obstacles, in the world frame.
 struct Pieces {
@@ -127,6 +131,13 @@ pub(crate) fn descend(settings: &Settings, reference: &[Point], session: &mut Se
     if path.len() < 3 {
         return Polish::Done;
     }
+    if settings.objective == Objective::Shorten && path.len() > MOST_VERTICES {
+        path = thinned(&path, session);
+        let length = cost(&path, reference, settings);
+        if length < session.cost {
+            session.offer(&path, length);
+        }
+    }
     let world = session.world;
     let pieces = Pieces::new(world);
     let unit = mean_spacing(&path);
@@ -168,6 +179,21 @@ pub(crate) fn descend(settings: &Settings, reference: &[Point], session: &mut Se
         path.clone_from(&session.path);
     }
     Polish::Done
+}
+
+/// Every k-th vertex of a free path, with more where a shortcut would collide: free, and never longer.
+fn thinned(path: &[Point], session: &mut Session<'_, '_>) -> Vec<Point> {
+    let (last, stride) = (path.len() - 1, path.len().div_ceil(MOST_VERTICES));
+    let (mut kept, mut at) = (vec![path[0]], 0);
+    while at < last {
+        let mut next = (at + stride).min(last);
+        while next > at + 1 && !session.is_free(&[path[at], path[next]]) {
+            next = at + (next - at) / 2;
+        }
+        kept.push(path[next]);
+        at = next;
+    }
+    kept
 }
 
 fn programme(round: &Round<'_>, settings: &Settings, reference: &[Point], unit: f64) -> Answer {
