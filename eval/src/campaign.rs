@@ -106,9 +106,10 @@ impl Campaign {
 
     /// The results before the first run: everything but runs.
     pub fn empty_results(&self, jobs: usize) -> Results {
-        let Comparison { name, seed, repeats, planners, .. } = &self.comparison;
+        let Comparison { name, seed, repeats, planners, notes, .. } = &self.comparison;
         let mut manifest = machine::manifest(jobs);
         manifest.identity = self.identity();
+        manifest.notes.clone_from(notes);
         Results {
             name: name.clone(),
             seed: *seed,

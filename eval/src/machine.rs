@@ -4,7 +4,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 
 use crate::results::Manifest;
 
-/// A manifest of this program on this machine, begun now; identity and end are still empty.
+/// A manifest of this program on this machine, begun now; identity, end and notes are still empty.
 pub fn manifest(jobs: usize) -> Manifest {
     Manifest {
         version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -16,6 +16,7 @@ pub fn manifest(jobs: usize) -> Manifest {
         started: now(),
         finished: String::new(),
         identity: String::new(),
+        notes: Vec::new(),
     }
 }
 

@@ -175,6 +175,9 @@ pub struct Manifest {
     pub finished: String,
     /// Identity of the campaign: hash of resolved comparison, scenes and version.
     pub identity: String,
+    /// What a reader ought to know of how the scenes came about; manifests before these notes had none.
+    #[serde(default)]
+    pub notes: Vec<String>,
 }
 
 /// A whole campaign.
@@ -202,5 +205,18 @@ impl Results {
     /// The runs of one planner, over one scene or (`None`) all of them.
     pub fn runs_of<'a>(&'a self, planner: &'a str, scene: Option<&'a str>) -> impl Iterator<Item = &'a RunRecord> {
         self.runs.iter().filter(move |r| r.planner == planner && scene.is_none_or(|s| r.scene == s))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Manifest;
+
+    #[test]
+    fn manifests_without_notes_are_still_read() {
+        let manifest = Manifest { jobs: 2, ..Manifest::default() };
+        let mut json = serde_json::to_value(&manifest).unwrap();
+        json.as_object_mut().unwrap().remove("notes").unwrap();
+        assert_eq!(serde_json::from_value::<Manifest>(json).unwrap(), manifest);
     }
 }

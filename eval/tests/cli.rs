@@ -106,6 +106,8 @@ fn scenes_from_a_log_outlive_it() {
     let note = "note: game-c0007-left: opponent 2 overlaps the start by 0.100000: radius 0.200000 instead of 0.3\n";
     assert_eq!(text(&output.stderr), note);
     place.ok(&["run", "log.toml", "--out", "out", "--quiet"]);
+    let note = "game-c0007-left: opponent 2 overlaps the start by 0.100000: radius 0.200000 instead of 0.3";
+    assert!(place.read("out/manifest.json").contains(note) && place.read("out/report.html").contains(note));
     fs::remove_file(place.0.join("game.rcg")).unwrap();
     place.ok(&["run", "out/comparison.toml", "--out", "again", "--quiet"]);
     assert_eq!(timeless(&place.read("again/runs.csv")), timeless(&place.read("out/runs.csv")));

@@ -4,6 +4,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use env_model::Scene;
+use toml::de::DeTable;
 
 use super::{CheckArgs, say};
 use crate::config::{Comparison, Disk};
@@ -26,10 +27,7 @@ pub(super) fn check(args: &CheckArgs) -> Result<ExitCode, Error> {
 fn check_one(file: &Path) -> Result<String, Error> {
     let text = std::fs::read_to_string(file).map_err(Error::io("read", file))?;
     let path = file.display().to_string();
-    // A comparison is told by a key that scenes lack; what is neither is read as a scene.
-    let is_comparison = toml::from_str::<toml::Table>(&text)
-        .is_ok_and(|t| ["planner", "scenes", "repeats", "budget"].iter().any(|key| t.contains_key(*key)));
-    if is_comparison {
+    if is_comparison(&text) {
         let comparison = Comparison::from_toml(&path, &text, &Disk::beside(file))?;
         let Comparison { name, repeats, scenes, planners, notes, .. } = &comparison;
         notes.iter().for_each(|note| eprintln!("note: {note}"));
@@ -37,5 +35,25 @@ fn check_one(file: &Path) -> Result<String, Error> {
     } else {
         let scene = Scene::from_toml(&path, &text)?;
         Ok(format!("scene {}, {} obstacles", scene.name, scene.obstacles.len()))
+    }
+}
+
+/// A comparison is told by a key that scenes lack; what is neither is read as a scene.
+fn is_comparison(text: &str) -> bool {
+    // Parsed as comparisons are: a table of values would refuse integers above i64.
+    let keys = ["planner", "scenes", "repeats", "budget"];
+    DeTable::parse(text).is_ok_and(|table| keys.iter().any(|key| table.get_ref().contains_key(*key)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_comparison;
+
+    #[test]
+    fn comparisons_are_told_by_their_keys() {
+        assert!(is_comparison("scenes = [{ rcg = \"a.rcg\", cycles = [18446744073709551615] }]"));
+        assert!(is_comparison("[planner.pso]"));
+        assert!(!is_comparison("name = \"a\"\nstart = [0, 0]"));
+        assert!(!is_comparison("repeats = "));
     }
 }

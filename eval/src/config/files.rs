@@ -37,7 +37,14 @@ impl Disk {
 
 impl Files for Disk {
     fn open(&self, relative: &str) -> Result<Opened, String> {
+        if relative.is_empty() {
+            return Err("an empty path".to_owned());
+        }
         let path = self.folder.join(relative);
+        // Opening it may succeed, and reading then fails without its name.
+        if path.is_dir() {
+            return Err(format!("cannot read {}: it is a folder", path.display()));
+        }
         let file = std::fs::File::open(&path).map_err(|e| format!("cannot read {}: {e}", path.display()))?;
         Ok((path.display().to_string(), Box::new(file)))
     }

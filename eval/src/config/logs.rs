@@ -10,7 +10,7 @@ use serde::Deserialize;
 use toml::Spanned;
 use toml::de::DeTable;
 
-use super::{Files, Opened, from_table};
+use super::{Files, Opened, folder_name, from_table};
 
 /// More would be a slip of the pen.
 const MOST: usize = 10_000;
@@ -24,7 +24,7 @@ struct RcgSource {
     side: Side,
     target: Option<Spanned<Vec<f64>>>,
     /// What names of scenes begin with; default: the file's name without its endings.
-    name: Option<String>,
+    name: Option<Spanned<String>>,
 }
 
 /// `{ ssl-log = "game.log.gz", frames = [10], team = "blue", robot = 3 }`
@@ -37,7 +37,7 @@ struct SslSource {
     robot: u32,
     attack: Option<Side>,
     target: Option<Spanned<Vec<f64>>>,
-    name: Option<String>,
+    name: Option<Spanned<String>>,
 }
 
 /// The scenes of `table`; `None` when it names no log.
@@ -52,7 +52,7 @@ pub(super) fn read(
         let target = target(source, asked.target)?;
         let cycles = instants(source, "cycles", &asked.cycles)?;
         let (file, log) = open(source, &asked.rcg, files)?;
-        let name = asked.name.unwrap_or_else(|| stem(asked.rcg.get_ref()));
+        let name = name(source, asked.name.as_ref(), asked.rcg.get_ref())?;
         let request = rcg::Request { name: &name, cycles: &cycles, side: asked.side, target };
         let imported = rcg::scenes(&file, log, &request);
         return imported.map(Some).map_err(|e| located(source, &e, asked.rcg.span(), &asked.cycles));
@@ -62,7 +62,7 @@ pub(super) fn read(
         let target = target(source, asked.target)?;
         let frames = instants(source, "frames", &asked.frames)?;
         let (file, log) = open(source, &asked.ssl_log, files)?;
-        let name = asked.name.unwrap_or_else(|| stem(asked.ssl_log.get_ref()));
+        let name = name(source, asked.name.as_ref(), asked.ssl_log.get_ref())?;
         let SslSource { team, robot, attack, .. } = asked;
         let request = ssl::Request { name: &name, frames: &frames, team, robot, attack, target };
         let imported = ssl::scenes(&file, log, &request);
@@ -73,6 +73,11 @@ pub(super) fn read(
 
 fn open(source: &Source<'_>, path: &Spanned<String>, files: &dyn Files) -> Result<Opened, FileError> {
     files.open(path.get_ref()).map_err(|e| source.error_at(path.span(), format!("{e}; expected a match log")))
+}
+
+/// What names of scenes begin with.
+fn name(source: &Source<'_>, asked: Option<&Spanned<String>>, path: &str) -> Result<String, FileError> {
+    asked.map_or_else(|| Ok(stem(path)), |asked| folder_name(source, asked).cloned())
 }
 
 /// `logs/game.rcg.gz` → `game`

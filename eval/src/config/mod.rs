@@ -79,13 +79,7 @@ impl Comparison {
                 return Err(source.error_at(0..0, format!("an empty comparison: no {key}; expected {expected}")));
             }
         }
-        let name = head.name.get_ref();
-        if !is_folder_name(name) {
-            return Err(source.error_at(
-                head.name.span(),
-                format!("name = {name:?}; expected letters, digits, spaces and . _ - (it names a folder)"),
-            ));
-        }
+        let name = folder_name(&source, &head.name)?;
         let seed = head.seed.map_or(Ok(1), |seed| {
             u64::try_from(*seed.get_ref()).map_err(|_| {
                 source.error_at(seed.span(), format!("seed = {}; expected an integer of at least 0", seed.get_ref()))
@@ -181,6 +175,15 @@ fn table_of<'i>(
         DeValue::Table(table) => Ok(Spanned::new(span, table)),
         other => Err(source.error_at(span, format!("found {}; expected {expected}", other.type_str()))),
     }
+}
+
+/// The text of a `name` that names folders or files too.
+fn folder_name<'n>(source: &Source<'_>, name: &'n Spanned<String>) -> Result<&'n String, FileError> {
+    let text = name.get_ref();
+    is_folder_name(text).then_some(text).ok_or_else(|| {
+        let expected = "letters, digits, spaces and . _ - (it names a folder)";
+        source.error_at(name.span(), format!("name = {text:?}; expected {expected}"))
+    })
 }
 
 fn is_folder_name(name: &str) -> bool {

@@ -205,6 +205,9 @@ fn mistakes_with_logs_are_named_with_their_place() {
         (rcg, "[5, 5]", "[5]", "c.toml:2:74: a target of 1 numbers; expected two finite ones, [x, y]"),
         (rcg, "[5, 5]", "[5, nan]", "c.toml:2:74: a target of 2 numbers; expected two finite ones, [x, y]"),
         (rcg, "[5, 5]", "[2, 2.6]", "c.toml:2:46: logs/game.rcg:2: cycle 7: goal (2.000, 2.600) is 0.5000 inside"),
+        (rcg, "target = [5, 5]", "name = \"\"", "c.toml:2:72: name = \"\"; expected letters, digits, spaces"),
+        (rcg, "target = [5, 5]", "name = \"a/b\"", "c.toml:2:72: name = \"a/b\"; expected letters, digits, spaces"),
+        (ssl, "robot = 3", "robot = 3, name = \" \"", "c.toml:2:109: name = \" \"; expected letters"),
         (rcg, "target =", "goal =", "c.toml:2:65: unknown field `goal`, expected one of `rcg`, `cycles`, `side`"),
         (rcg, ", side = \"left\"", "", "c.toml:2:11: missing field `side`"),
         (ssl, "[10]", "[10, 700]", "c.toml:2:75: "),
@@ -218,6 +221,23 @@ fn mistakes_with_logs_are_named_with_their_place() {
         let message = with_source(&good.replacen(from, to, 1)).err().unwrap_or_else(|| panic!("{to}: accepted"));
         assert!(message.starts_with(expected), "{to}:\n  {message}\n  {expected}");
     }
+}
+
+#[test]
+fn a_folder_is_no_file() {
+    let here = Disk::beside(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/c.toml")));
+    let error = |scene: &str| {
+        let text = format!("name = \"x\"\nscenes = [{scene}]\n[planner.tangent]");
+        Comparison::from_toml("c.toml", &text, &here).err().unwrap().to_string()
+    };
+    let log = |path: &str| error(&format!("{{ rcg = \"{path}\", cycles = [7], side = \"left\" }}"));
+    assert_eq!(log(""), "c.toml:2:19: an empty path; expected a match log");
+    let folder = log("src");
+    assert!(
+        folder.starts_with("c.toml:2:19: cannot read ")
+            && folder.ends_with("src: it is a folder; expected a match log")
+    );
+    assert_eq!(error("\"\""), "c.toml:2:11: an empty path; expected a scene file");
 }
 
 #[test]

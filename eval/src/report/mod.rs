@@ -38,6 +38,8 @@ use crate::results::{Manifest, Results, SceneResult};
 pub const FULL: usize = 3;
 /// Scenes beyond these that get small pictures; the rest have their tables alone.
 const SMALL: usize = 24;
+/// Notes on scenes shown; a log of thousands of cycles has hundreds.
+const MOST_NOTES: usize = 10;
 
 /// Runs of the campaign when it is complete.
 pub fn planned(results: &Results) -> usize {
@@ -126,6 +128,10 @@ fn warnings(manifest: &Manifest, t: &Strings) -> Vec<String> {
     }
     if manifest.profile == "debug" {
         warnings.push(t.get("note_debug").to_owned());
+    }
+    warnings.extend(manifest.notes.iter().take(MOST_NOTES).cloned());
+    if let Some(more @ 1..) = manifest.notes.len().checked_sub(MOST_NOTES) {
+        warnings.push(format!("+ {more}: manifest.json"));
     }
     warnings
 }

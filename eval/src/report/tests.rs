@@ -293,6 +293,18 @@ fn poor_data_does_not_break_the_page() {
 }
 
 #[test]
+fn notes_on_scenes_are_shown_up_to_ten() {
+    let mut results = results(&["a"], &["one"], 1);
+    results.manifest.notes = (1..=10).map(|n| format!("scene-{n}: <drawn> smaller")).collect();
+    let page = html(&results, Language::English);
+    check(&page);
+    assert_eq!(page.matches("&lt;drawn&gt; smaller").count(), 10);
+    assert!(!page.contains("manifest.json</p>"), "nothing is left out");
+    results.manifest.notes.extend(["one".to_owned(), "two".to_owned()]);
+    assert!(html(&results, Language::Chinese).contains("+ 2: manifest.json</p>"));
+}
+
+#[test]
 fn absurd_scenes_are_drawn_somehow() {
     for size in [1e-320, 1e-310, 1e-200, 1e-20, 1e20, 1e200, 1e307] {
         let mut results = results(&["a", "b"], &["one"], 6);

@@ -84,7 +84,6 @@ impl Evolution {
             child.clear();
             child.reserve_exact(limits.genes);
         }
-        let others = run.spent.collision_checks;
         for genes in &mut self.population.genes {
             if !run.allows_setup(1) {
                 break;
@@ -93,7 +92,6 @@ impl Evolution {
             self.population.fitness.push(species.fitness(genes));
             run.spent.evaluations += 1;
         }
-        run.spent.collision_checks = others + species.checks();
         let mut stagnation = Stagnation::default();
         let mut generation = 0;
         if let Some(best) = self.population.best() {
@@ -107,8 +105,6 @@ impl Evolution {
                 std::mem::swap(&mut self.population, &mut self.next);
                 generation += 1;
                 run.spent.iterations += 1;
-                run.spent.evaluations += work;
-                run.spent.collision_checks = others + species.checks();
                 let best = self.population.best().expect("a population is never empty");
                 self.show(stage, species, best, run, plan);
             }
@@ -118,6 +114,7 @@ impl Evolution {
             plan.cost = species.cost(self.population.fitness[best]);
             run.spent.collision_checks += plan.path.len() as u64 - 1;
         }
+        run.spent.collision_checks += species.checks();
         plan.counters = run.spent;
         match run.stopped() {
             true => Status::BudgetSpent,
@@ -126,7 +123,7 @@ impl Evolution {
         }
     }
 
-    /// Fills `next`; false when time is up.
+    /// Fills `next`, counting what it evaluates; false when time is up.
     fn generate<S: Species>(&mut self, species: &mut S, generation: u64, dice: &mut Dice, run: &mut Run<'_>) -> bool {
         let Self { population, next, children, roulette, .. } = self;
         let elite = population.best().expect("a population is never empty");
@@ -150,6 +147,7 @@ impl Evolution {
                 let place = next.fitness.len();
                 next.genes[place].clone_from(child);
                 next.fitness.push(species.fitness(child));
+                run.spent.evaluations += 1;
             }
         }
         true
@@ -203,7 +201,79 @@ impl Stagnation {
 
 #[cfg(test)]
 mod tests {
+    use std::time::{Duration, Instant};
+
+    use env_model::{Scene, World};
+    use planner_api::Budget;
+
     use super::*;
+
+    /// One gene a chromosome, nothing to tell them apart. Breeds three pairs, then sleeps.
+    struct Sleeper {
+        until: Instant,
+        pairs: u64,
+        evaluated: u64,
+    }
+
+    impl Species for Sleeper {
+        fn draw(&mut self, genes: &mut Vec<Gene>, _: &mut Dice) {
+            genes.push(1);
+        }
+
+        fn breed(&mut self, _: &mut [Vec<Gene>; 2], _: &Parents, _: &mut Dice) {
+            self.pairs += 1;
+            if self.pairs == 3 {
+                std::thread::sleep(self.until.saturating_duration_since(Instant::now()));
+            }
+        }
+
+        fn fitness(&mut self, _: &[Gene]) -> f64 {
+            self.evaluated += 1;
+            1.0
+        }
+
+        fn cost(&self, fitness: f64) -> f64 {
+            1.0 / fitness
+        }
+
+        fn write_path(&self, _: &[Gene], path: &mut Vec<Point>) {
+            path.extend([Point::new(0.0, 0.0), Point::new(1.0, 0.0)]);
+        }
+
+        fn grid(&self) -> Option<&CellGrid> {
+            None
+        }
+
+        /// Two an evaluation.
+        fn checks(&self) -> u64 {
+            2 * self.evaluated
+        }
+    }
+
+    #[test]
+    fn a_generation_cut_short_is_counted() {
+        let world = World::new(&Scene {
+            name: "open".into(),
+            unit: "m".into(),
+            robot_radius: 0.0,
+            start: [0.0, 0.0],
+            goal: [1.0, 0.0],
+            field: None,
+            obstacles: Vec::new(),
+        })
+        .unwrap();
+        let problem = Problem::new(&world, Point::new(0.0, 0.0), Point::new(1.0, 0.0)).unwrap();
+        let limits = Limits { population: 10, genes: 1, generations: 5, stall: 5 };
+        // Long enough to get as far as the third pair on a busy machine.
+        let deadline = Instant::now() + Duration::from_millis(400);
+        let mut sleeper = Sleeper { until: deadline, pairs: 0, evaluated: 0 };
+        let mut run = Run::new(1).with_budget(Budget { deadline: Some(deadline), ..Budget::default() });
+        let mut plan = Plan::default();
+        let status = Evolution::default().run("sleeper", &mut sleeper, &limits, &problem, &mut run, &mut plan);
+        assert_eq!((status, plan.counters.iterations), (Status::BudgetSpent, 0));
+        // Ten at first, two of each of three pairs; the path returned has one segment.
+        assert_eq!((sleeper.evaluated, plan.counters.evaluations, plan.counters.collision_checks), (16, 16, 33));
+    }
 
     #[test]
     fn stagnation_counts_generations_without_improvement() {

@@ -5,10 +5,17 @@ use serde::{Deserialize, Serialize};
 
 use crate::{CellsPassed, GridFitness};
 
+/// Genes of all individuals, so that a run fits into memory.
+pub(crate) const MOST_GENES: usize = 20_000_000;
+
 /// Settings of [`GridGa`](crate::GridGa). The thesis names the operators but,
 /// as far as it is preserved, no numbers but a population of 100 (§4.4, "the
 /// classic value"); where a default is not marked as the thesis's or another
 /// work's, it is a reading.
+///
+/// `population`·(`most_turns` + 2), the genes of all individuals, is at most
+/// 2·10⁷. There is room for all of them in two generations at 4 bytes each: 160 MB at
+/// most. An observer of the state costs 16 bytes a gene besides.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct GridGaSettings {
@@ -104,6 +111,12 @@ impl GridGaSettings {
         SettingError::check(infeasible > 0.0 && infeasible <= 1.0, "infeasible", infeasible, "above 0, at most 1")?;
         whole("initial_turns", self.initial_turns, 1, 1000, "1 to 1000")?;
         whole("most_turns", self.most_turns, self.initial_turns, 10_000, "initial_turns to 10000")?;
+        SettingError::check(
+            self.population.saturating_mul(self.most_turns + 2) <= MOST_GENES,
+            "population",
+            format_args!("{} beside most_turns = {}", self.population, self.most_turns),
+            "population·(most_turns + 2) of at most 20000000",
+        )?;
         probability("k1", self.k1)?;
         probability("k2", self.k2)?;
         probability("k3", self.k3)?;
@@ -130,6 +143,11 @@ pub enum VertexFitness {
 
 /// Settings of [`VertexGa`](crate::VertexGa). Defaults that are not marked as the
 /// thesis's are readings.
+///
+/// `population` times the number of vertices, which only the world decides, is at
+/// most 2·10⁷, else planning ends with an error. There is room for all genes in two
+/// generations at 4 bytes each: 160 MB at most. An observer of the state costs 16
+/// bytes a gene besides.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct VertexGaSettings {
@@ -244,6 +262,18 @@ mod tests {
             change(&mut settings);
             assert_eq!(crate::GridGa::new(settings).unwrap_err().key, key);
         }
+    }
+
+    #[test]
+    fn more_genes_than_fit_into_memory_are_an_error() {
+        let of =
+            |population, most_turns| GridGaSettings { population, most_turns, ..GridGaSettings::default() }.validate();
+        assert_eq!((of(100_000, 198), of(1999, 10_000)), (Ok(()), Ok(())));
+        assert_eq!(
+            of(100_000, 10_000).unwrap_err().to_string(),
+            "population = 100000 beside most_turns = 10000; expected population·(most_turns + 2) of at most 20000000"
+        );
+        assert_eq!(of(100_000, 199).unwrap_err().key, "population");
     }
 
     #[test]

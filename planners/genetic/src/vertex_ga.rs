@@ -17,7 +17,7 @@ use crate::dice::Dice;
 use crate::evolution::{Evolution, Limits, Parents, Species};
 use crate::mutation::mutate_vertices;
 use crate::population::Gene;
-use crate::settings::{VertexFitness, VertexGaSettings};
+use crate::settings::{MOST_GENES, VertexFitness, VertexGaSettings};
 use crate::vertices::number_vertices;
 
 /// Factors of P (Fang 2009, §4.4 (3)).
@@ -63,6 +63,12 @@ impl Planner for VertexGa {
         plan.clear();
         let Self { settings, vertices, polygon, .. } = self;
         let checks = number_vertices(problem.world, settings.corners, || run.in_time(), vertices, polygon);
+        let (population, n) = (settings.population, vertices.len());
+        if population.saturating_mul(n) > MOST_GENES {
+            return Err(PlanError::Unsupported(format!(
+                "population = {population} beside {n} vertices; expected population·vertices of at most {MOST_GENES}"
+            )));
+        }
         let limits = Limits {
             population: settings.population,
             genes: self.vertices.len(),
@@ -224,6 +230,35 @@ mod tests {
             assert_eq!((status, plan.path.len()), (Status::Solved, 4));
             assert!((plan.cost - (2.0 + 2.0 * std::f64::consts::SQRT_2)).abs() < CLOSE, "seed {seed}");
         }
+    }
+
+    #[test]
+    fn more_genes_than_fit_into_memory_are_an_error() {
+        // 40 discs apart, 8 corners each: 320 vertices.
+        let disc = |i: i32| Shape::Disc { centre: [2.0 * f64::from(i), 0.0], radius: 0.5 }.into();
+        let ends = [Point::new(-2.0, 0.0), Point::new(81.0, 0.0)];
+        let world = World::new(&Scene {
+            name: "discs".into(),
+            unit: "m".into(),
+            robot_radius: 0.0,
+            start: ends[0].into(),
+            goal: ends[1].into(),
+            field: None,
+            obstacles: (0..40).map(disc).collect(),
+        })
+        .unwrap();
+        let problem = Problem::new(&world, ends[0], ends[1]).unwrap();
+        let plan = |population| {
+            let settings = VertexGaSettings { population, ..VertexGaSettings::default() };
+            let none = planner_api::Budget { evaluations: Some(0), ..planner_api::Budget::default() };
+            VertexGa::new(settings).unwrap().plan(&problem, &mut Run::new(1).with_budget(none))
+        };
+        // 62 500 · 320 = 2·10⁷.
+        assert!(matches!(plan(100), Ok((_, Status::BudgetSpent))));
+        assert_eq!(
+            plan(62_501).unwrap_err().to_string(),
+            "population = 62501 beside 320 vertices; expected population·vertices of at most 20000000"
+        );
     }
 
     #[test]

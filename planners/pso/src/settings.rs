@@ -21,6 +21,11 @@ use crate::choices::{Bounds, NoLimit, RandomNumbers, Rule, Schedule, Topology, V
 /// | `topology` | global | global | global | random | – |
 ///
 /// A key given beside a rule that has none (–) or fixes it is an error.
+///
+/// `particles`·`columns` is at most 10⁷, and so is `side_classes`·`columns`. A height of a
+/// particle takes at most 52 bytes (position, velocity, bests, two random numbers,
+/// an exemplar), 24 more under an observer of the state; one of a side class 8, and
+/// 16 in the candidates: at most 760 MB and 240 MB.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Settings {
@@ -76,6 +81,9 @@ pub struct Settings {
     /// 0 … 10 000. Default 0; `pso-qp` uses it.
     pub side_classes: usize,
 }
+
+/// Heights of all particles, or of all side classes, so that a run fits into memory.
+const MOST_HEIGHTS: usize = 10_000_000;
 
 impl Default for Settings {
     fn default() -> Self {
@@ -154,6 +162,18 @@ impl Settings {
             "a finite number of at least 1",
         )?;
         SettingError::check(self.side_classes <= 10_000, "side_classes", self.side_classes, "0 to 10000")?;
+        SettingError::check(
+            self.particles.saturating_mul(self.columns) <= MOST_HEIGHTS,
+            "particles",
+            format_args!("{} beside columns = {}", self.particles, self.columns),
+            "particles·columns of at most 10000000",
+        )?;
+        SettingError::check(
+            self.side_classes.saturating_mul(self.columns) <= MOST_HEIGHTS,
+            "side_classes",
+            format_args!("{} beside columns = {}", self.side_classes, self.columns),
+            "side_classes·columns of at most 10000000",
+        )?;
         let read = defaults(self.rule);
         self.check("c1", self.c1, read.c1, weight, WEIGHT)?;
         self.check("c2", self.c2, read.c2, weight, WEIGHT)?;
@@ -301,5 +321,21 @@ mod tests {
         ] {
             assert_eq!(message(&settings), expected);
         }
+    }
+
+    #[test]
+    fn more_heights_than_fit_into_memory_are_an_error() {
+        let of = |particles, columns, side_classes| {
+            message(&Settings { particles, columns, side_classes, ..Settings::default() })
+        };
+        assert_eq!(of(10_000, 1000, 10_000), "fine");
+        assert_eq!(
+            of(10_000, 10_000, 0),
+            "particles = 10000 beside columns = 10000; expected particles·columns of at most 10000000"
+        );
+        assert_eq!(
+            of(20, 10_000, 1001),
+            "side_classes = 1001 beside columns = 10000; expected side_classes·columns of at most 10000000"
+        );
     }
 }

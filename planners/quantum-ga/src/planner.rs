@@ -85,6 +85,17 @@ impl QuantumGa {
         run.spent.collision_checks += self.path.len() as u64 - 1;
     }
 
+    /// Observes all individuals; false when time is up.
+    fn observe_all(&mut self, columns: &Columns, world: &World, rng: &mut ChaCha8Rng, run: &mut Run<'_>) -> bool {
+        for i in 0..self.settings.population {
+            if !run.in_time() {
+                return false;
+            }
+            self.observe(i, columns, world, rng, run);
+        }
+        true
+    }
+
     /// Turns the qubits of every individual towards its best string, then remembers better ones.
     fn learn(&mut self, gate: Gate) {
         let bits = self.length();
@@ -159,11 +170,8 @@ impl Planner for QuantumGa {
         if seen > 0 {
             self.show(&columns, run, plan);
             for generation in 1..=generations {
-                if !run.allows(population as u64) {
+                if !run.allows(population as u64) || !self.observe_all(&columns, problem.world, &mut rng, run) {
                     break;
-                }
-                for i in 0..population {
-                    self.observe(i, &columns, problem.world, &mut rng, run);
                 }
                 self.learn(gate);
                 self.bests.share(if generation % global_migration == 0 { population } else { group });
@@ -182,7 +190,10 @@ impl Planner for QuantumGa {
 
 #[cfg(test)]
 mod tests {
+    use std::time::Instant;
+
     use env_model::{Obstacle, Scene};
+    use planner_api::Budget;
 
     use super::*;
 
@@ -230,6 +241,22 @@ mod tests {
         // Either bit: 25 up or down half way, clear of the disc. 2·√(50² + 25²).
         assert!((planner.observed.costs[0] - 2.0 * 3125.0_f64.sqrt()).abs() < 1e-12);
         assert_eq!((run.spent.evaluations, run.spent.collision_checks), (1, 2));
+    }
+
+    #[test]
+    fn a_generation_ends_with_the_time() {
+        let world = world(&[]);
+        let columns = Columns::new(Point::new(0.0, 0.0), Point::new(100.0, 0.0), 1);
+        let settings = QuantumGaSettings { columns: 1, bits: 1, population: 3, ..QuantumGaSettings::default() };
+        let mut planner = QuantumGa::new(settings).unwrap();
+        planner.qubits = vec![Qubit::EVEN; 3];
+        planner.observed = Bests { strings: vec![false; 3], costs: vec![0.0; 3] };
+        let mut rng = ChaCha8Rng::seed_from_u64(1);
+        for (deadline, evaluations) in [(None, 3), (Some(Instant::now()), 0)] {
+            let mut run = Run::new(1).with_budget(Budget { deadline, ..Budget::default() });
+            assert_eq!(planner.observe_all(&columns, &world, &mut rng, &mut run), deadline.is_none());
+            assert_eq!((run.spent.evaluations, run.stopped()), (evaluations, deadline.is_some()));
+        }
     }
 
     #[test]

@@ -6,6 +6,10 @@ use planner_api::SettingError;
 use serde::{Deserialize, Serialize};
 
 /// Settings of [`QuantumGa`](crate::QuantumGa).
+///
+/// `population`·`columns`·`bits`, the qubits of all individuals, is at most 10⁷. A
+/// qubit takes 16 bytes, its bit in the two strings kept 2 more: 180 MB at most. An
+/// observer of the state costs 16 bytes a turning point besides.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct QuantumGaSettings {
@@ -27,6 +31,9 @@ pub struct QuantumGaSettings {
     /// 1 … 100 000. Default 2, a fifth of the population.
     pub group: usize,
 }
+
+/// Qubits of all individuals, so that a run fits into memory.
+const MOST_QUBITS: usize = 10_000_000;
 
 impl Default for QuantumGaSettings {
     fn default() -> Self {
@@ -53,6 +60,12 @@ impl QuantumGaSettings {
         SettingError::check((1..=1000).contains(&self.columns), "columns", self.columns, "1 to 1000")?;
         SettingError::check((1..=32).contains(&self.bits), "bits", self.bits, "1 to 32")?;
         SettingError::check((1..=100_000).contains(&self.population), "population", self.population, "1 to 100000")?;
+        SettingError::check(
+            self.population.saturating_mul(self.columns).saturating_mul(self.bits as usize) <= MOST_QUBITS,
+            "population",
+            format_args!("{} beside columns = {} and bits = {}", self.population, self.columns, self.bits),
+            "population·columns·bits of at most 10000000",
+        )?;
         SettingError::check(long.contains(&self.generations), "generations", self.generations, "1 to 1000000000")?;
         SettingError::check(turn > 0.0 && turn <= FRAC_PI_4, "rotation", turn, "above 0, at most π/4")?;
         SettingError::check(long.contains(&period), "global_migration", period, "1 to 1000000000")?;
@@ -83,5 +96,18 @@ mod tests {
             change(&mut settings);
             assert_eq!(crate::QuantumGa::new(settings).unwrap_err().key, key);
         }
+    }
+
+    #[test]
+    fn more_qubits_than_fit_into_memory_are_an_error() {
+        let of = |population, columns, bits| {
+            QuantumGaSettings { population, columns, bits, ..QuantumGaSettings::default() }.validate()
+        };
+        assert_eq!(of(100_000, 10, 10), Ok(()));
+        assert_eq!(
+            of(100_000, 1000, 32).unwrap_err().to_string(),
+            "population = 100000 beside columns = 1000 and bits = 32; expected population·columns·bits of at most 10000000"
+        );
+        assert_eq!(of(100_000, 10, 11).unwrap_err().key, "population");
     }
 }
