@@ -26,6 +26,9 @@ const LEAST_MUTATION: f64 = 0.005;
 /// Evolves lists of cells. The cost is 1/f, f the fitness of
 /// [`GridFitness`](crate::GridFitness): in scene units, above the path's length, ten
 /// times as much for a path that collides.
+///
+/// Turning points stand on the centres of free cells. Where the way must turn in a
+/// gap narrower than about two cells, none is found: a finer grid may help.
 #[derive(Debug, Clone)]
 pub struct GridGa {
     settings: GridGaSettings,
@@ -224,6 +227,36 @@ mod tests {
             lengths.sum::<f64>() / 10.0 / (ENDS[1] - ENDS[0]).norm() - 1.0
         };
         assert!(excess(CellsPassed::Genes) > 0.01 && excess(CellsPassed::Traversed) < 2e-3);
+    }
+
+    #[test]
+    fn adaptive_mutation_has_a_least_rate() {
+        let world = world(Vec::new());
+        let problem = Problem::new(&world, ENDS[0], ENDS[1]).unwrap();
+        let level = crate::rates::Level { mean: 2.0, max: 4.0 };
+        let parents = Parents { fitness: [1.0, 3.0], level, generation: 0 };
+        let rates = |settings: &GridGaSettings| {
+            let mut buffers = CellBuffers::default();
+            let cells = Cells::new(&problem, 10, &mut buffers).unwrap();
+            let paths = Paths { settings, cells, spare: &mut Vec::new(), crossing: &mut Vec::new() };
+            [0, 1].map(|child| paths.mutation_rate(&parents, child))
+        };
+        let settings = GridGaSettings { k2: 0.0, k4: 0.0, mutation: 0.0, ..GridGaSettings::default() };
+        assert_eq!(rates(&settings), [0.005; 2]);
+        assert_eq!(rates(&GridGaSettings { k2: 0.5, k4: 0.25, ..settings.clone() }), [0.25; 2]);
+        assert_eq!(rates(&GridGaSettings { adaptive: false, ..settings }), [0.0; 2]);
+    }
+
+    #[test]
+    fn the_rates_not_in_use_are_not_read() {
+        let disc = || vec![Obstacle::disc(Point::new(5.0, 3.0), 1.2)];
+        let of = |settings| plan(settings, disc(), &mut Run::new(3)).0;
+        let adaptive = GridGaSettings { generations: 20, ..GridGaSettings::default() };
+        let fixed = GridGaSettings { adaptive: false, ..adaptive.clone() };
+        assert_eq!(of(GridGaSettings { crossover: 0.1, mutation: 0.9, ..adaptive.clone() }), of(adaptive.clone()));
+        let other = GridGaSettings { k1: 0.1, k2: 0.2, k3: 0.3, k4: 0.4, ..fixed.clone() };
+        assert_eq!(of(other), of(fixed.clone()));
+        assert_ne!(of(fixed), of(adaptive));
     }
 
     struct Watch(u64);

@@ -45,17 +45,24 @@ pub struct GridGaSettings {
     /// Rates by the fitness of those concerned (Srinivas & Patnaik 1994) instead of
     /// the fixed `crossover` and `mutation`. Default true.
     pub adaptive: bool,
-    /// Adaptive: crossover of parents whose better one is of mean fitness, 0 … 1. Default 1 (Srinivas & Patnaik).
+    /// Adaptive: crossover of parents whose better one is of mean fitness, 0 … 1.
+    /// Default 1 (Srinivas & Patnaik). Not read when `adaptive` is false.
     pub k1: f64,
-    /// Adaptive: mutation of an individual of mean fitness, 0 … 1. Default 0.5 (Srinivas & Patnaik).
+    /// Adaptive: mutation of an individual of mean fitness, 0 … 1. Default 0.5
+    /// (Srinivas & Patnaik). Whatever k2, even 0, every individual mutates at a rate of
+    /// at least 0.005, as theirs do (§III). Not read when `adaptive` is false.
     pub k2: f64,
     /// Adaptive: crossover below mean fitness, 0 … 1. Default 1 (Srinivas & Patnaik).
+    /// Not read when `adaptive` is false.
     pub k3: f64,
-    /// Adaptive: mutation below mean fitness, 0 … 1. Default 0.5 (Srinivas & Patnaik).
+    /// Adaptive: mutation below mean fitness, 0 … 1. Default 0.5 (Srinivas & Patnaik);
+    /// at least 0.005 like `k2`. Not read when `adaptive` is false.
     pub k4: f64,
-    /// Fixed rate of crossover a pair, 0 … 1; used when `adaptive` is false. Default 0.8.
+    /// Fixed rate of crossover a pair, 0 … 1. Default 0.8. Not read when `adaptive`
+    /// is true, as it is by default.
     pub crossover: f64,
-    /// Fixed rate of mutation an individual, 0 … 1; used when `adaptive` is false. Default 0.1.
+    /// Fixed rate of mutation an individual, 0 … 1; 0 is none at all. Default 0.1. Not
+    /// read when `adaptive` is true, as it is by default.
     pub mutation: f64,
     /// Radius of mutation in the first generation as a share of the grid's longer
     /// side, 0 … 1; it shrinks to one cell. Default 0.5.
