@@ -138,6 +138,8 @@ mod robocup_2d {
         assert_eq!(tie.start, [-40.0, 1.0], "the lower number");
         let windows = SMALL.replace('\n', "\r\n");
         assert_eq!(cycles(windows.as_bytes(), &[7], Side::Left).unwrap().scenes[0], *scene);
+        let marked = format!("\u{feff}{SMALL}");
+        assert_eq!(cycles(marked.as_bytes(), &[7], Side::Left).unwrap().scenes[0], *scene, "a byte order mark");
         let target = rcg::Request { name: "n", cycles: &[7], side: Side::Right, target: Some([-3.0, 4.0]) };
         let scene = &rcg::scenes("f", SMALL.as_bytes(), &target).unwrap().scenes[0];
         assert_eq!((scene.start, scene.goal, scene.name.as_str()), ([2.0, 2.5], [-3.0, 4.0], "n-c0007-right"));
@@ -388,6 +390,14 @@ mod small_size {
             (b"SSL_LOG_FILE\0\0".to_vec(), "game.log: byte 0: begins with".into()),
             (b"SSL_LOG_FILE\0\0\0\x02".to_vec(), "game.log: byte 12: log version 2; expected 1".into()),
             (log(&[]), "game.log: byte 16: the log ends without the size of the pitch".into()),
+            (
+                log(&[(2, detection(0, 5.0, &[BLUE_3]))]),
+                format!(
+                    "game.log: byte {}: the log ends without the size of the pitch; expected a packet with geometry \
+                     (vision of 2010, messages of type 2, is not supported; expected that of 2014, type 4)",
+                    32 + detection(0, 5.0, &[BLUE_3]).len()
+                ),
+            ),
             (log(&[(4, geometry())]), "game.log: frame 0: not in the log; it has no frames at all".into()),
             (log(&[(9, vec![])]), "game.log: byte 16: a message of type 9; expected 0 to 6".into()),
             (
@@ -521,6 +531,24 @@ mod broken {
             place_of(&rcg_of(&rcg[..rcg.len() - lost]).unwrap_err());
             place_of(&ssl_of(&ssl[..ssl.len() - lost]).unwrap_err());
         }
+    }
+
+    #[test]
+    fn what_follows_a_compressed_log_is_said() {
+        let (rcg, ssl) = (rcg_small(), ssl_small());
+        for trailing in [&b"\0"[..], b"x", b"garbage, and more than the trailer's eight bytes", &[0; 512]] {
+            let after = |log: &[u8]| [&zipped(log), trailing].concat();
+            let expected = "cannot be read: trailing bytes after the end of the compressed log; expected none";
+            for error in [rcg_of(&after(&rcg)).unwrap_err(), ssl_of(&after(&ssl)).unwrap_err()] {
+                assert!(error.to_string().ends_with(expected), "{error}");
+            }
+        }
+        let parts = |log: &[u8]| [zipped(&log[..1000]), zipped(&[]), zipped(&log[1000..])].concat();
+        assert_eq!(rcg_of(&parts(&rcg)), rcg_of(&rcg), "gzip files may be joined");
+        assert_eq!(ssl_of(&parts(&ssl)), ssl_of(&ssl), "gzip files may be joined");
+        let cut = parts(&rcg);
+        let error = rcg_of(&cut[..cut.len() - 9]).unwrap_err().to_string();
+        assert!(error.ends_with("the compressed log is cut short"), "{error}");
     }
 
     /// 200 MiB of one letter, zipped to 200 kB.

@@ -202,6 +202,7 @@ fn campaign(name: &str, scenes: Vec<Scene>, known: bool, repeats: u32) -> Result
             started: "2026-01-01T12:00:00Z".into(),
             finished: "2026-01-01T12:00:11Z".into(),
             identity: "0123456789abcdef0123456789abcdef".into(),
+            notes: Vec::new(),
         },
     })
 }

@@ -25,6 +25,9 @@ use list::{Reader, Token};
 /// A server sends 18; a log of nothing else must not fill the memory.
 const MOST_PLAYER_TYPES: usize = 1000;
 
+/// Some editors put it in front of UTF-8.
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
 /// What to take from a log.
 #[derive(Debug, Clone, Copy)]
 pub struct Request<'a> {
@@ -99,6 +102,9 @@ fn read(file: &str, log: impl Read, wanted: &[u64]) -> Result<Log, ImportError> 
     let mut stream = Stream::new(log).map_err(io_at(1))?;
     let mut line = Vec::new();
     stream.line(&mut line).map_err(io_at(1))?;
+    if line.starts_with(BYTE_ORDER_MARK) {
+        line.drain(..BYTE_ORDER_MARK.len());
+    }
     if !matches!(&line[..], b"ULG4" | b"ULG5" | b"ULG6") {
         let found = String::from_utf8_lossy(&line[..line.len().min(8)]).into_owned();
         return Err(at(1, format!("begins with {found:?}; expected ULG4, ULG5 or ULG6 (a text log of RoboCup 2D)")));

@@ -142,6 +142,7 @@ impl Match {
         let wanted: BTreeSet<u64> = wanted.iter().copied().collect();
         let mut seen = Sightings { captures: Captures::new(), frames: BTreeMap::new() };
         let (mut geometry, mut referee, mut first_referee) = (None, None, None);
+        let mut old_vision = false;
         let mut log = log::Log::open(file, log)?;
         while let Some(log::Message { kind, place, payload }) = log.next()? {
             let corrupt = |message: String| ImportError::Log { file: file.to_owned(), place, message };
@@ -161,11 +162,16 @@ impl Match {
                     referee = word.blue_team_on_positive_half.map(side).or(referee);
                     first_referee = first_referee.or(referee);
                 }
+                log::VISION_2010 => old_vision = true,
                 _ => {}
             }
         }
         let Some(geometry) = geometry else {
-            let message = "the log ends without the size of the pitch; expected a packet with geometry".to_owned();
+            let mut message = "the log ends without the size of the pitch; expected a packet with geometry".to_owned();
+            if old_vision {
+                message
+                    .push_str(" (vision of 2010, messages of type 2, is not supported; expected that of 2014, type 4)");
+            }
             return Err(ImportError::Log { file: file.to_owned(), place: log.place(), message });
         };
         let Sightings { captures, frames } = seen;

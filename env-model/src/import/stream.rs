@@ -2,7 +2,7 @@
 
 use std::io::{self, BufRead, BufReader, Cursor, ErrorKind, Read};
 
-use flate2::read::MultiGzDecoder;
+use flate2::bufread::GzDecoder;
 
 /// Longest log, bytes after decompression. Matches take 1 to 2 GB; a few
 /// megabytes of malice decompress to more than any time limit.
@@ -27,7 +27,7 @@ impl<'r> Stream<'r> {
         let decompressed = magic == GZIP_MAGIC;
         let whole = Cursor::new(magic).chain(reader);
         let inner: Box<dyn BufRead + 'r> = match decompressed {
-            true => Box::new(BufReader::new(MultiGzDecoder::new(BufReader::new(whole)))),
+            true => Box::new(BufReader::new(Members { current: Some(GzDecoder::new(BufReader::new(whole))) })),
             false => Box::new(BufReader::new(whole)),
         };
         Ok(Self { inner, offset: 0, decompressed })
@@ -85,6 +85,30 @@ impl<'r> Stream<'r> {
             return Err(io::Error::other(format!("a log of more than {MOST_BYTES} bytes (decompressed)")));
         }
         Ok(())
+    }
+}
+
+/// The parts of a gzip file, one after the other; there is nothing else in it.
+struct Members<R> {
+    /// `None` after the last.
+    current: Option<GzDecoder<R>>,
+}
+
+impl<R: BufRead> Read for Members<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        while let Some(member) = &mut self.current {
+            let read = member.read(buffer)?;
+            if read > 0 || buffer.is_empty() {
+                return Ok(read);
+            }
+            let Some(next) = member.get_mut().fill_buf()?.first().copied() else { break };
+            if next != GZIP_MAGIC[0] {
+                return Err(io::Error::other("trailing bytes after the end of the compressed log; expected none"));
+            }
+            self.current = self.current.take().map(|member| GzDecoder::new(member.into_inner()));
+        }
+        self.current = None;
+        Ok(0)
     }
 }
 

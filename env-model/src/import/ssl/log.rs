@@ -12,6 +12,7 @@ const MAGIC: &[u8; 12] = b"SSL_LOG_FILE";
 /// The most that a datagram holds, and every message that is read was one.
 const MOST_PAYLOAD: usize = 65_535;
 
+pub(super) const VISION_2010: i32 = 2;
 pub(super) const REFEREE: i32 = 3;
 pub(super) const VISION: i32 = 4;
 /// 0 blank, 1 unknown, 2 vision 2010, 3 referee 2013, 4 vision 2014, 5 tracker 2020, 6 index 2021.
