@@ -39,15 +39,23 @@ pub struct Settings {
     /// Where the search begins. Paper: `"rectangle"`.
     pub search_space: SearchSpace,
     /// Largest mean risk per cell of a path that is safe enough, ≥ 0: above it the
-    /// rectangle is widened. Not in the paper; default 15, three levels: lower values
-    /// widen nearly always, since hardly any path to the goal avoids all defenders'
-    /// regions, and then cost more searches than the whole pitch would.
+    /// rectangle is widened. Ignored with `search_space = "pitch"`. Not in the paper;
+    /// default 15, three levels: lower values widen nearly always, since hardly any path
+    /// to the goal avoids all defenders' regions.
+    ///
+    /// The rectangle saves work where it is widened little: against five defenders
+    /// `heuristic = "ring"` expands 278 cells in it and 344 on the whole pitch, in the mean.
+    /// Against more it is widened often, each time searching anew, and the whole pitch
+    /// is cheaper: means over ten `wall` scenes of one seed are 15 000 to 21 000
+    /// evaluations against 5 500 to 7 200, in about twice the time, and four
+    /// instants of a recorded game take 1896, 627, 691 and 100 expansions against 1288,
+    /// 393, 568 and 34, for paths that cost as much or more.
     pub theta: f64,
     /// The rectangle is widened again only if the last widening lowered the cost
-    /// by more than this share of it, 0 … 1. Not in the paper; default 0.01.
+    /// by more than this share of it, 0 … 1. Ignored with `search_space = "pitch"`. Not in the paper; default 0.01.
     pub eta: f64,
     /// Cells by which each side of the rectangle moves outwards at a time,
-    /// 1 … 1000. Not in the paper; default 3.
+    /// 1 … 1000. Ignored with `search_space = "pitch"`. Not in the paper; default 3.
     pub widening: usize,
 }
 
