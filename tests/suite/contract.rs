@@ -186,11 +186,25 @@ fn best_cost_never_worsens_and_watching_changes_nothing() {
 fn an_observer_can_stop_the_run() {
     let scene = scenes::paper();
     let world = scenes::world(&scene);
-    for (name, mut planner) in random_planners() {
+    // Its first frame shows its answer: nothing is left to stop.
+    const ONE_FRAME: &[&str] = &["straight-line"];
+    // They have no path until they reach the goal, so soon after the start they have none.
+    const GROWING: &[&str] = &[
+        "tangent",
+        "rrt",
+        "informed-rrt",
+        "astar",
+        "dijkstra",
+        "theta-star",
+        "influence-astar",
+        "neural",
+        "potential-field",
+    ];
+    for (name, mut planner) in planners().into_iter().filter(|(name, _)| !ONE_FRAME.contains(&name.as_str())) {
         let mut observer = watch(&name, Detail::Progress, 2);
         let (plan, status) = plan(planner.as_mut(), &scene, &world, &mut Run::new(4).with_observer(&mut observer));
         assert_eq!((status, observer.frames), (Status::BudgetSpent, 2), "{name}");
-        let none_yet = plan.path.is_empty() && (name.starts_with("rrt") || name.starts_with("informed"));
+        let none_yet = plan.path.is_empty() && GROWING.iter().any(|kind| name.starts_with(kind));
         assert!(none_yet || has_ends(&plan.path, &scene), "{name}: best so far");
     }
 }

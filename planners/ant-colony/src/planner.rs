@@ -17,7 +17,9 @@ use crate::walk::{End, Walker};
 /// the path: moves between free cells need none. The cost is the best tour's
 /// length in scene units. Where an end is joined to several cells, the ants are
 /// shared out over them. When one that may step back finds no way, there is none on this
-/// grid, and the colony stops. A deadline is overshot by one ant, or the building of
+/// grid, and the colony stops. A gap through which the robot's centre has less than
+/// about two cells to pass may be closed on the grid, and so the answer `NotFound`; a
+/// finer grid may open it. A deadline is overshot by one ant, or the building of
 /// the grid, at most.
 #[derive(Debug, Clone)]
 pub struct AntColony {

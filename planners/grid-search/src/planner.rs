@@ -14,7 +14,9 @@ use crate::search::Search;
 /// and those of the path. The cost is the path's length in scene units. A path
 /// that the search has reached when the budget ends is returned even if not proved
 /// to be the shortest. Observers of Dijkstra's algorithm see every cell's distance, +∞
-/// for cells never reached. A deadline is overshot by the building of the grid at most.
+/// for cells never reached. `NotFound` means that there is no way on this grid: a gap
+/// through which the robot's centre has less than about two cells to pass may be closed
+/// on it, and a finer grid may open it. A deadline is overshot by the building of the grid at most.
 #[derive(Debug, Clone)]
 pub struct GridSearch {
     settings: Settings,

@@ -55,6 +55,22 @@ fn walls_and_games_are_solved_and_any_angle_is_shorter() {
 }
 
 #[test]
+fn doors_narrower_than_two_cells_are_closed_on_a_coarse_grid() {
+    let path = format!("{}/../../configs/scenes/corridor.toml", env!("CARGO_MANIFEST_DIR"));
+    let scene = Scene::from_toml(&path, &std::fs::read_to_string(&path).unwrap()).unwrap();
+    let world = World::new(&scene).unwrap();
+    let problem = Problem::new(&world, scene.start(), scene.goal()).unwrap();
+    for new in [GridSearch::astar, GridSearch::dijkstra, GridSearch::theta_star] {
+        // The centre has 0.12 m to pass; cells of 1.2 m and of 0.05 m.
+        for (settings, expected) in [(Settings { cells: 5 }, Status::NotFound), (Settings::default(), Status::Solved)] {
+            let (plan, status) = new(settings.clone()).unwrap().plan(&problem, &mut Run::new(1)).unwrap();
+            assert_eq!(status, expected, "{settings:?}");
+            assert_eq!(plan.path.is_empty(), expected == Status::NotFound);
+        }
+    }
+}
+
+#[test]
 fn ends_wedged_between_obstacles_join_the_grid_by_several_cells() {
     // Start and goal in blocked cells: each touches a disc, and is off every centre.
     let scene = Scene {

@@ -28,6 +28,12 @@ use crate::{SearchSpace, Settings};
 /// cell, and `risk`, W. An iteration is the expansion of a cell, a reopened one anew;
 /// an evaluation is a successor generated, or a cell where the path may start.
 /// Draws no random numbers.
+///
+/// `NotFound` means that there is no way on this grid, or with soft obstacles that
+/// the path collides. A gap through which the robot's centre has less than about two
+/// cells to pass may be closed on the grid, and a finer grid may open it. A deadline
+/// interrupts the risk map and the search; the rest of the setting up (occupancy,
+/// joints of the ends, for each rectangle its cells and estimates) is not interrupted.
 #[derive(Debug, Clone)]
 pub struct InfluenceAstar {
     settings: Settings,

@@ -53,6 +53,19 @@ fn bad_settings_are_errors_by_name() {
         ("kernel", Settings { kernel: vec![60.0, 100.0], ..good() }),
         ("kernel", Settings { kernel: vec![-1.0], ..good() }),
         ("theta", Settings { theta: nan, ..good() }),
+        ("theta", Settings { theta: f64::INFINITY, ..good() }),
+        ("eta", Settings { eta: nan, ..good() }),
+        // Too small: quanta of them would be infinite, or the other way round nothing.
+        ("a", Settings { a: 1e-310, b: 0.0, ..good() }),
+        ("a", Settings { a: 1e-10, b: 0.0, ..good() }),
+        ("a", Settings { a: 1e-12, ..good() }),
+        ("a", Settings { a: 1e-9, b: 1e6, ..good() }),
+        ("b", Settings { a: 0.0, b: 1e-310, ..good() }),
+        ("delta", Settings { a: 0.0, b: 1.0, delta: 1e-310, kernel: Vec::new(), ..good() }),
+        ("kernel", Settings { kernel: vec![100.0, 1e-310], ..good() }),
+        ("dis", Settings { dis: 1e-305, b: 0.0, ..good() }),
+        ("dis", Settings { a: 0.0, b: 1.0, dis: 1e-310, ..good() }),
+        ("dis", Settings { dis: 1e7, ..good() }),
         ("eta", Settings { eta: 1.5, ..good() }),
         ("widening", Settings { widening: 0, ..good() }),
     ];
@@ -62,6 +75,32 @@ fn bad_settings_are_errors_by_name() {
     }
     assert_eq!(good().validate(), Ok(()));
     assert_eq!(Settings { kernel: Vec::new(), b: 0.0, ..good() }.validate(), Ok(()));
+}
+
+#[test]
+fn the_smallest_and_the_largest_settings_find_paths_of_the_same_worth() {
+    let pitch = scene(vec![disc(30.5, 18.5, None), disc(40.5, 9.5, None)]);
+    let base = Settings { search_space: SearchSpace::Pitch, heuristic: Heuristic::Ring, ..Settings::default() };
+    // L in cells and W in levels, to a millionth: paths may tie, sums of equal ones round differently.
+    let measure = |settings: Settings| {
+        let (plan, status) = solve(settings.clone(), &pitch);
+        assert_eq!(status, Status::Solved, "{settings:?}");
+        [plan.terms[0].1 / settings.dis, plan.terms[1].1 / settings.delta].map(|sum| (sum * 1e6).round())
+    };
+    let shortest = measure(Settings { a: 1.0, b: 0.0, ..base.clone() });
+    for (a, dis) in [(1e-9, 30.0), (1e-9, 1e-6), (1e6, 1e6)] {
+        assert_eq!(measure(Settings { a, b: 0.0, dis, ..base.clone() }), shortest, "a = {a}, dis = {dis}");
+    }
+    let safest = measure(Settings { a: 0.0, b: 1.0, ..base.clone() });
+    for (b, dis) in [(1e-9, 30.0), (1.0, 1e-6), (1e6, 1e6)] {
+        assert_eq!(measure(Settings { a: 0.0, b, dis, ..base.clone() }), safest, "b = {b}, dis = {dis}");
+    }
+    // The least a that counts decides as ties do at a = 0: risks differ by 5 or not at all, a·L by less than 1e-5.
+    assert_eq!(measure(Settings { a: 1e-9, b: 1.0, ..base.clone() }), safest);
+    // Levels alone, as small and as large as can be.
+    let levels = |b, delta| measure(Settings { a: 0.0, b, delta, kernel: Vec::new(), ..base.clone() });
+    assert_eq!(levels(1e-9, 1e-9), levels(1.0, 5.0));
+    assert_eq!(levels(1e6, 1e6), levels(1.0, 5.0));
 }
 
 #[test]

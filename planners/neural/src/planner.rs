@@ -12,6 +12,8 @@ use crate::{Network, NeuralSettings};
 /// When the budget ends the sweeps the climb is tried on what there is. The cost
 /// is the path's length, +∞ until the climb. `NotFound` means that on this
 /// grid the start feels nothing of the goal (or that activity has saturated).
+/// A gap through which the robot's centre has less than about two cells to pass may be
+/// closed on it; a finer grid may open it.
 #[derive(Debug, Clone)]
 pub struct Neural {
     settings: NeuralSettings,

@@ -94,10 +94,9 @@ impl Planner for RrtConnect {
                 break;
             }
             run.spent.iterations += 1;
-            // The first attempt is the straight motion to the goal.
-            let (target, step) = if sample == 0 { (goal, f64::INFINITY) } else { (sampler.in_box(&extent), range) };
+            let target = sampler.in_box(&extent);
             let side = (sample % 2) as usize;
-            if let Step::Advanced(node) | Step::Reached(node) = self.extend(side, target, step, world, run) {
+            if let Step::Advanced(node) | Step::Reached(node) = self.extend(side, target, range, world, run) {
                 let meeting = self.trees[side].point(node);
                 if let Some(other) = self.connect(1 - side, meeting, range, world, run) {
                     let ends = if side == 0 { [node, other] } else { [other, node] };
@@ -127,7 +126,7 @@ impl Planner for RrtConnect {
 mod tests {
     use env_model::scene::Field;
     use env_model::{Obstacle, Scene, Shape};
-    use planner_api::{Budget, Counters};
+    use planner_api::Budget;
 
     use super::*;
 
@@ -178,12 +177,21 @@ mod tests {
     }
 
     #[test]
-    fn an_empty_world_takes_one_attempt() {
+    fn in_an_empty_world_the_first_sample_joins_the_trees() {
         let mut scene = scene();
         scene.obstacles.clear();
-        let (_, plan, status) = solve(ConnectSettings::default(), &scene, &mut Run::new(1));
-        assert_eq!((plan.path, status), (vec![scene.start(), scene.goal()], Status::Solved));
-        assert_eq!(plan.counters, Counters { iterations: 1, evaluations: 1, collision_checks: 1 });
+        let diagonal = World::new(&scene).unwrap().extent().diagonal();
+        for seed in 0..20 {
+            let (_, plan, status) =
+                solve(ConnectSettings { range: 0.05, ..Default::default() }, &scene, &mut Run::new(seed));
+            assert_eq!((status, plan.counters.iterations), (Status::Solved, 1));
+            // A step towards the sample, and from its end to the goal by straight steps as long as allowed.
+            let turn = (plan.path[1] - plan.path[0]).norm() + (scene.goal() - plan.path[1]).norm();
+            // Some twenty lengths below 1000 are summed.
+            assert!((plan.cost - turn).abs() < 1e-11, "{} {turn}", plan.cost);
+            let longest = plan.path.windows(2).map(|w| (w[1] - w[0]).norm()).fold(0.0, f64::max);
+            assert!(longest <= 0.05 * diagonal + 1e-12, "{longest}");
+        }
     }
 
     #[test]

@@ -13,8 +13,9 @@
 //! greed and has nothing to do with safety. Samples are uniform in the box where
 //! the robot's centre may be ([`env_model::World::extent`]).
 //!
-//! The first attempt of each planner is the straight motion from start to goal:
-//! where that is free, nothing is shorter and there is nothing to sample.
+//! As in the sources nobody tries the straight motion from start to goal first:
+//! where that is free, RRT-Connect's path still bends towards its first sample, and
+//! the others come near the straight line as they come near any optimum.
 
 mod connect;
 mod cost_tree;

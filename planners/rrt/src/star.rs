@@ -107,33 +107,32 @@ impl Planner for RrtStar {
         let mut end: Option<u32> = None;
         self.tree.plant(start);
         self.report(run, plan.cost);
-        for sample in 0..samples {
+        for _ in 0..samples {
             if !run.allows(1) {
                 break;
             }
             run.spent.iterations += 1;
-            // The first attempt is the straight motion to the goal.
-            let (target, step) = match (sample, end) {
-                (0, _) => (goal, f64::INFINITY),
-                (_, Some(_)) if self.informed => (focus.sample(plan.cost, &mut sampler), range),
-                (_, None) if sampler.unit() < goal_bias => (goal, range),
-                _ => (sampler.in_box(&focus.extent), range),
+            let target = match end {
+                Some(_) if self.informed => focus.sample(plan.cost, &mut sampler),
+                None if sampler.unit() < goal_bias => goal,
+                _ => sampler.in_box(&focus.extent),
             };
             let (nodes, area) = match end {
                 Some(_) if self.informed => focus.content(self.tree.tree.points(), plan.cost),
                 _ => (self.tree.tree.len(), focus.extent_area()),
             };
-            let new =
-                self.grow(world, target, step, range.min(rewire_factor * critical_radius(nodes, area)), &mut run.spent);
+            let new = self.grow(
+                world,
+                target,
+                range,
+                range.min(rewire_factor * critical_radius(nodes, area)),
+                &mut run.spent,
+            );
             end = end.or(new.filter(|n| self.tree.tree.point(*n) == goal));
             if let Some(end) = end {
                 plan.cost = self.tree.cost(end);
             }
             self.report(run, plan.cost);
-            if sample == 0 && end.is_some() {
-                // Nothing is shorter than the straight line.
-                break;
-            }
         }
         if let Some(end) = end {
             self.tree.tree.append_branch(end, &mut plan.path);

@@ -162,13 +162,20 @@ fn nodes_in_the_ellipse_are_counted() {
 }
 
 #[test]
-fn an_empty_world_takes_one_attempt() {
+fn in_an_empty_world_no_step_is_longer_than_the_range_and_the_path_nearly_straight() {
     let mut scene = paper();
     scene.obstacles.clear();
-    for mut planner in planners(&StarSettings::default()) {
-        let (plan, status) = solve(&mut planner, &scene, 1);
-        assert_eq!((plan.path, status), (vec![scene.start(), scene.goal()], Status::Solved));
-        assert_eq!(plan.counters, Counters { iterations: 1, evaluations: 1, collision_checks: 1 });
+    let diagonal = World::new(&scene).unwrap().extent().diagonal();
+    for range in [0.05, 0.2] {
+        for mut planner in planners(&StarSettings { range, ..StarSettings::default() }) {
+            let (plan, status) = solve(&mut planner, &scene, 1);
+            assert_eq!((status, plan.counters.iterations), (Status::Solved, 4000), "all samples are drawn");
+            let longest = plan.path.windows(2).map(|w| (w[1] - w[0]).norm()).fold(0.0, f64::max);
+            // Coordinates below 1000 round by 1e-13.
+            assert!(longest <= range * diagonal + 1e-12, "{longest} in {range}");
+            let gap = plan.cost / (scene.goal() - scene.start()).norm() - 1.0;
+            assert!((0.0..0.01).contains(&gap), "{}: {gap} at {range}", planner.name());
+        }
     }
 }
 
