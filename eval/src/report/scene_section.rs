@@ -83,11 +83,13 @@ pub fn section(results: &Results, index: usize, extent: Extent, t: &Strings) -> 
     };
     let mut charts = (None, None, None);
     let mut own = (None, None);
+    let mut no_convergence = None;
     if extent == Extent::Full {
         let series: Vec<Series<'_>> =
             with_runs().map(|((index, p), runs)| Series { label: &p.label, index, runs: runs.clone() }).collect();
         let unit = scene.scene.unit.as_str();
         charts.0 = convergence::figure(&id("convergence", 0), &series, scene.optimum.length, unit, t);
+        no_convergence = charts.0.is_none().then(|| convergence::nothing(&series, t));
         charts.1 = spread(results, &[scene], &id("spread", 0), t);
         charts.2 = times(results, Some(name), &id("time", 0), t);
         own.0 = pareto::figure(&id("pareto", 0), &series, t);
@@ -101,7 +103,7 @@ pub fn section(results: &Results, index: usize, extent: Extent, t: &Strings) -> 
         known => !scene.optimum.path.is_empty(),
         table => if one { Value::from(()) } else { tables::comparison(results, Some(name), &scene.scene.unit, t) },
         copies => Value::from_safe_string(copies),
-        cards, miniatures, convergence => charts.0, pareto => own.0, fitness => own.1, spread => charts.1, times => charts.2,
+        cards, miniatures, convergence => charts.0, no_convergence, pareto => own.0, fitness => own.1, spread => charts.1, times => charts.2,
         more => by_planner.iter().any(|r| r.len() > DRAWN_SMALL), small_drawn => DRAWN_SMALL,
         full => extent == Extent::Full, runs => by_planner.iter().map(Vec::len).sum::<usize>(),
     }
