@@ -151,14 +151,18 @@ pub fn spread(results: &Results, scenes: &[&SceneResult], id: &str, t: &Strings)
     let rows = rows(results, |r| names.contains(&r.scene.as_str()), &|r| {
         if by_gap { r.gap.unwrap_or(f64::INFINITY) } else { counted_length(r) }
     });
-    let runs = format::count(rows.iter().map(|r| r.values.len()).max().unwrap_or(0) as f64);
+    let runs = rows.iter().map(|r| r.values.len()).max().unwrap_or(0);
     let title = t.get(if by_gap { "gap_title" } else { "length_title" });
     let axis = if by_gap {
         t.get("gap_axis").to_owned()
     } else {
         tables::with_unit(t.get("length_axis"), scenes.first().map_or("", |s| s.scene.unit.as_str()))
     };
-    let mut text = t.fill(if by_gap { "gap_text" } else { "length_text" }, &[("n", &runs)]);
+    let mut text = if by_gap {
+        t.plural(runs, "gap_text_one", "gap_text")
+    } else {
+        t.plural(runs, "length_text_one", "length_text")
+    };
     let shown: usize = rows.iter().map(|r| r.values.len()).sum();
     let left = results.runs.iter().filter(|r| scenes.iter().any(|s| s.scene.name == r.scene)).count() - shown;
     if left > 0 {
@@ -173,8 +177,8 @@ pub fn spread(results: &Results, scenes: &[&SceneResult], id: &str, t: &Strings)
 /// How wall times spread, over one scene or all; every run counts, failed or not.
 pub fn times(results: &Results, scene: Option<&str>, id: &str, t: &Strings) -> Option<Value> {
     let rows = rows(results, |r| scene.is_none_or(|s| r.scene == s), &|r| r.time_us);
-    let runs = format::count(rows.iter().map(|r| r.values.len()).max().unwrap_or(0) as f64);
-    let text = t.fill("time_text", &[("n", &runs)]);
+    let runs = rows.iter().map(|r| r.values.len()).max().unwrap_or(0);
+    let text = t.plural(runs, "time_text_one", "time_text");
     let (title, axis) = (t.get("time_title"), t.get("time_axis"));
     strip::figure(&rows, &strip::Kind { id, title, axis, text: &text, number: format::time, floor: 1e-3 }, t)
 }
