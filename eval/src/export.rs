@@ -352,8 +352,23 @@ detour,a-scene,2,1,inf,inf,inf,10.333333333333334,inf,0.25,4010
         drop(store);
         assert_eq!(Store::open(&folder).unwrap().read().unwrap().results, results);
 
-        // What version 1 had not is taken away.
         let db = rusqlite::Connection::open(folder.join(crate::store::FILE)).unwrap();
+        // Pictures alone are missing: everything else is read.
+        db.execute_batch("ALTER TABLE snapshot RENAME TO kept").unwrap();
+        let without = Store::open(&folder).unwrap().read().unwrap().results;
+        assert_eq!((without.snapshots.len(), &without.runs), (0, &results.runs));
+        // A damaged picture is refused by name: drawing it might never end.
+        db.execute_batch("ALTER TABLE kept RENAME TO snapshot").unwrap();
+        let mut damaged = results.snapshots[0].clone();
+        let crate::snapshot::State::Population { mesh, .. } = &mut damaged.state else { panic!() };
+        let json = r#"{"min":[0.0,0.0],"size":1.0,"columns":610000000,"rows":36,"every":1}"#;
+        *mesh = Some(serde_json::from_str(json).unwrap());
+        let text = serde_json::to_string(&damaged).unwrap();
+        db.execute("INSERT INTO snapshot (position, snapshot) VALUES (99, ?1)", [text]).unwrap();
+        let refusal = Store::open(&folder).unwrap().read().err().unwrap().to_string();
+        assert!(refusal.contains("runs.db: a snapshot: of climber in"), "{refusal}");
+
+        // What version 1 had not is taken away.
         db.execute_batch(
             "DROP TABLE snapshot; ALTER TABLE run DROP COLUMN cost; ALTER TABLE run DROP COLUMN terms;
              UPDATE campaign SET schema = 1;",

@@ -323,11 +323,15 @@ fn read(db: &Connection, schema: i64) -> rusqlite::Result<Result<Stored, String>
         Ok(parse().map(|()| run))
     })?)?;
     let mut snapshots = Ok(Vec::new());
-    if schema != FIRST {
+    // The runs are whole without pictures, whichever way a database came to lack them.
+    let pictures = "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name = 'snapshot'";
+    if db.query_row(pictures, [], |row| row.get::<_, i64>(0))? == 1 {
         let mut statement = db.prepare("SELECT snapshot FROM snapshot ORDER BY position")?;
         snapshots = collect(statement.query_map([], |row| {
             let text: String = row.get(0)?;
-            Ok(serde_json::from_str::<Snapshot>(&text).map_err(|e| format!("a snapshot: {e}")))
+            let snapshot = serde_json::from_str::<Snapshot>(&text).map_err(|e| e.to_string());
+            let checked = snapshot.and_then(|s| s.check().map(|()| s));
+            Ok(checked.map_err(|e| format!("a snapshot: {e}")))
         })?)?;
     }
     Ok((|| {

@@ -24,6 +24,10 @@
 //! own). A population adds `paths`, their `fitness` (larger is better), `path` (the best so far)
 //! and `grid` where chromosomes number cells. A field of forces adds `grid`, `forces`
 //! (`[fx, fy]` at each cell's centre), `trail` (points) and `stuck` (a point, or null).
+//!
+//! Cells and trees grow by the frame, and all of them together with its square. So frames of a
+//! stage, numbered from 0, hold them up to 256, then every 2nd to 512, every 4th to 1024, and so
+//! on, and the last of a stage always; the other lines have only the four fields of every line.
 
 use std::io::{self, Write};
 use std::ops::ControlFlow;
@@ -37,6 +41,10 @@ use serde_json::{Map, Value, json};
 /// Writes frames as they come.
 pub struct Tracer<W: Write> {
     out: W,
+    /// The stage that is running, and its frames with cells or trees so far.
+    stage: (&'static str, u64),
+    /// A line whose state is written only if it proves to be the last of its stage.
+    pending: Option<(Map<String, Value>, Held)>,
     origin: [f64; 2],
     axis: [f64; 2],
     outcome: io::Result<()>,
@@ -47,21 +55,57 @@ impl<W: Write> Tracer<W> {
     pub fn new(out: W, problem: &Problem<'_>) -> Self {
         let d = problem.goal - problem.start;
         let axis = d / d.norm();
-        Self { out, origin: [problem.start.x, problem.start.y], axis: [axis.x, axis.y], outcome: Ok(()) }
+        Self {
+            out,
+            stage: ("", 0),
+            pending: None,
+            origin: [problem.start.x, problem.start.y],
+            axis: [axis.x, axis.y],
+            outcome: Ok(()),
+        }
     }
 
     /// Ends the trace; the first error of writing, if there was one.
     pub fn finish(mut self) -> io::Result<()> {
-        self.outcome?;
+        std::mem::replace(&mut self.outcome, Ok(()))?;
+        self.settle(true)?;
         self.out.flush()
     }
 
+    /// Writes the line that waits, with its state if it was the last of its stage.
+    fn settle(&mut self, last: bool) -> io::Result<()> {
+        let Some((mut line, held)) = self.pending.take() else { return Ok(()) };
+        if last {
+            held.insert(&mut line);
+        }
+        self.write(&line)
+    }
+
+    fn write(&mut self, line: &Map<String, Value>) -> io::Result<()> {
+        serde_json::to_writer(&mut self.out, line)?;
+        self.out.write_all(b"\n")
+    }
+
     fn line(&mut self, frame: &Frame<'_>) -> io::Result<()> {
+        self.settle(frame.stage != self.stage.0)?;
+        if frame.stage != self.stage.0 {
+            self.stage = (frame.stage, 0);
+        }
+        let number = self.stage.1;
         let mut line = Map::new();
         line.insert("stage".into(), frame.stage.into());
         line.insert("iteration".into(), frame.iteration.into());
         line.insert("evaluations".into(), frame.evaluations.into());
         line.insert("best_cost".into(), finite(frame.best_cost));
+        if matches!(frame.view, View::Cells(_) | View::Trees(_)) {
+            self.stage.1 += 1;
+        }
+        if !is_kept(number)
+            && let Some(held) = Held::of(&frame.view)
+        {
+            self.pending = Some((line, held));
+            return Ok(());
+        }
         match frame.view {
             View::Path(path) => {
                 line.insert("path".into(), points(path));
@@ -75,8 +119,7 @@ impl<W: Write> Tracer<W> {
             View::Forces(view) => forces(&mut line, &view),
             _ => {}
         }
-        serde_json::to_writer(&mut self.out, &line)?;
-        self.out.write_all(b"\n")
+        self.write(&line)
     }
 
     fn swarm(&self, line: &mut Map<String, Value>, swarm: &SwarmView<'_>) {
@@ -91,6 +134,57 @@ impl<W: Write> Tracer<W> {
         line.insert("personal_costs".into(), swarm.personal_costs.iter().copied().map(finite).collect());
         line.insert("global_best".into(), json!(swarm.global_best));
         line.insert("global_cost".into(), finite(swarm.global_cost));
+    }
+}
+
+/// Whether the `number`-th frame of a stage is written with its state.
+fn is_kept(number: u64) -> bool {
+    number.is_multiple_of(number.div_ceil(256).next_power_of_two())
+}
+
+/// A copy of cells or trees, for the time until it is known whether another frame follows.
+enum Held {
+    Cells {
+        grid: CellGrid,
+        blocked: Vec<bool>,
+        states: Vec<CellState>,
+        values: Vec<f64>,
+        quantity: &'static str,
+        borders: Vec<(Point, Point)>,
+        path: Vec<Point>,
+    },
+    Trees(Vec<(Vec<Point>, Vec<u32>)>),
+}
+
+impl Held {
+    fn of(view: &View<'_>) -> Option<Self> {
+        match view {
+            View::Cells(view) => Some(Self::Cells {
+                grid: *view.grid,
+                blocked: view.blocked.to_vec(),
+                states: view.states.to_vec(),
+                values: view.values.to_vec(),
+                quantity: view.quantity,
+                borders: view.borders.to_vec(),
+                path: view.path.to_vec(),
+            }),
+            View::Trees(trees) => {
+                Some(Self::Trees(trees.iter().map(|t| (t.nodes.to_vec(), t.parents.to_vec())).collect()))
+            }
+            _ => None,
+        }
+    }
+
+    fn insert(&self, line: &mut Map<String, Value>) {
+        match self {
+            Self::Cells { grid, blocked, states, values, quantity, borders, path } => {
+                cells(line, &CellsView { grid, blocked, states, values, quantity, borders, path });
+            }
+            Self::Trees(held) => {
+                let views = held.iter().map(|(nodes, parents)| TreeView { nodes, parents });
+                line.insert("trees".into(), views.map(|view| tree(&view)).collect());
+            }
+        }
     }
 }
 
@@ -171,6 +265,52 @@ mod tests {
         }
         tracer.finish().unwrap();
         String::from_utf8(out).unwrap().lines().map(|l| serde_json::from_str(l).unwrap()).collect()
+    }
+
+    #[test]
+    fn long_searches_are_thinned_to_their_end() {
+        let nodes = [Point::new(0.0, 0.0), Point::new(1.0, 0.0)];
+        let trees = [TreeView { nodes: &nodes, parents: &[0, 0] }];
+        let extent = Aabb { min: Point::new(0.0, 0.0), max: Point::new(1.0, 1.0) };
+        let grid = CellGrid::covering(&extent, 1, 1);
+        let search = CellsView {
+            grid: &grid,
+            blocked: &[],
+            states: &[CellState::Closed],
+            values: &[],
+            quantity: "",
+            borders: &[],
+            path: &[],
+        };
+        let arena = Arena::new(scene("one")).unwrap();
+        let mut out = Vec::new();
+        let mut tracer = Tracer::new(&mut out, &arena.problem().unwrap());
+        for (stage, view) in [("grow", View::Trees(&trees)), ("search", View::Cells(search))] {
+            for iteration in 0..1100 {
+                let frame = Frame { stage, iteration, evaluations: 0, best_cost: 1.0, view };
+                assert!(tracer.frame(&frame).is_continue());
+            }
+        }
+        tracer.finish().unwrap();
+        let lines: Vec<Value> =
+            String::from_utf8(out).unwrap().lines().map(|l| serde_json::from_str(l).unwrap()).collect();
+        assert_eq!(lines.len(), 2200, "every frame has its line");
+        let expected: Vec<u64> = (0..=256)
+            .chain((258..=512).step_by(2))
+            .chain((516..=1024).step_by(4))
+            .chain((1032..=1096).step_by(8))
+            .chain([1099])
+            .collect();
+        for (stage, key) in [("grow", "trees"), ("search", "closed")] {
+            let of = lines.iter().filter(|l| l["stage"] == stage);
+            assert_eq!(
+                of.clone().map(|l| l["iteration"].as_u64().unwrap()).collect::<Vec<_>>(),
+                (0..1100).collect::<Vec<_>>()
+            );
+            let full: Vec<u64> =
+                of.filter(|l| l.get(key).is_some()).map(|l| l["iteration"].as_u64().unwrap()).collect();
+            assert_eq!(full, expected, "{stage}");
+        }
     }
 
     #[test]

@@ -5,7 +5,8 @@
 //! Medians and quartiles are taken over all runs, those that never became valid included.
 //! The chart shows cost/optimum − 1 (Hansen et al., *COCO*, Optim. Methods Softw. 36
 //! (2021) 114–144, plot the like precision); where the optimum is not known, the least
-//! cost that any run reached takes its place.
+//! cost that any run reached takes its place. Only costs that are lengths compare with either,
+//! so planners whose objective is something else are named and left out.
 
 use std::fmt::Write as _;
 
@@ -35,6 +36,9 @@ const HEIGHT: f64 = 412.0;
 const SAMPLES: usize = 240;
 /// Below this excess the cost equals the optimum as far as a report goes.
 const FLOOR: f64 = 1e-8;
+/// A valid path's cost that differs from its length by more than this share is not a length:
+/// arcs stored as polylines differ from the arc's length by up to 10⁻⁶, sums by their rounding.
+const OTHER: f64 = 1e-5;
 
 /// Cost of `run` at `x` evaluations.
 fn cost_at(run: &RunRecord, x: f64) -> f64 {
@@ -58,9 +62,31 @@ fn end(runs: &[&RunRecord]) -> f64 {
     runs.iter().map(last).max().unwrap_or(0) as f64
 }
 
-/// The figure: chart, paragraph and table; `None` when no run reported progress.
+/// Whether the planner's cost is something else than the path's length: some valid run tells.
+fn is_other(series: &Series<'_>) -> bool {
+    let mut ends = series.runs.iter().filter(|r| r.valid).filter_map(|r| r.cost.zip(r.length));
+    ends.any(|(cost, length)| (cost - length).abs() > OTHER * length.abs())
+}
+
+fn reports(series: &Series<'_>) -> bool {
+    series.runs.iter().any(|r| !r.progress.is_empty())
+}
+
+/// What to say where there is no chart.
+pub fn nothing(series: &[Series<'_>], t: &Strings) -> String {
+    let other: Vec<String> = series.iter().filter(|s| reports(s) && is_other(s)).map(|s| s.label.to_owned()).collect();
+    if other.is_empty() {
+        t.get("convergence_none").to_owned()
+    } else {
+        t.fill("convergence_other", &[("planners", &t.list(&other))])
+    }
+}
+
+/// The figure: chart, paragraph and table; `None` when no run reported progress towards a length.
 pub fn figure(id: &str, series: &[Series<'_>], optimum: Option<f64>, unit: &str, t: &Strings) -> Option<Value> {
-    let with: Vec<&Series<'_>> = series.iter().filter(|s| s.runs.iter().any(|r| !r.progress.is_empty())).collect();
+    let (other, with): (Vec<&Series<'_>>, Vec<&Series<'_>>) =
+        series.iter().filter(|s| reports(s)).partition(|s| is_other(s));
+    let other: Vec<String> = other.iter().map(|s| s.label.to_owned()).collect();
     let most = with.iter().map(|s| end(&s.runs)).fold(0.0, f64::max).max(1.0);
     let silent: Vec<String> = series
         .iter()
@@ -108,7 +134,7 @@ pub fn figure(id: &str, series: &[Series<'_>], optimum: Option<f64>, unit: &str,
         text += t.get("sentence_gap");
         text += t.get("convergence_edge");
     }
-    for (key, who) in [("convergence_below", &below), ("convergence_silent", &silent)] {
+    for (key, who) in [("convergence_other", &other), ("convergence_below", &below), ("convergence_silent", &silent)] {
         if !who.is_empty() {
             text += t.get("sentence_gap");
             text += &t.fill(key, &[("planners", &t.list(who))]);
@@ -133,7 +159,7 @@ pub fn figure(id: &str, series: &[Series<'_>], optimum: Option<f64>, unit: &str,
     let columns = table_places(most);
     let rows: Vec<Value> = series
         .iter()
-        .filter(|s| s.runs.iter().any(|r| !r.progress.is_empty()))
+        .filter(|s| reports(s) && !is_other(s))
         .map(|s| {
             let cells: Vec<String> = columns
                 .iter()
@@ -223,6 +249,39 @@ mod tests {
         let at = |evaluations, cost| Progress { evaluations, time_us: 0.0, cost };
         r.progress = vec![at(20, 9.0), at(40, 5.0)];
         assert_eq!([19.0, 20.0, 39.0, 40.0, 1e9].map(|x| cost_at(&r, x)), [f64::INFINITY, 9.0, 9.0, 5.0, 5.0]);
+    }
+
+    #[test]
+    fn costs_that_are_no_lengths_are_named_and_not_drawn() {
+        let of = |label: &'static str, cost: f64, valid: bool| {
+            let mut r = run("a", label, 0, Some(12.0));
+            (r.valid, r.cost) = (valid, Some(cost));
+            r.progress = vec![Progress { evaluations: 1, time_us: 0.0, cost }];
+            r
+        };
+        let runs = [
+            of("metre", 12.0, true),
+            of("arcs", 12.0 * (1.0 - 9e-7), true),
+            of("weighted", 2412.0, true),
+            of("less", 11.99, true),
+            of("penalised", 1e4, false),
+        ];
+        let series: Vec<Series<'_>> =
+            runs.iter().enumerate().map(|(index, r)| Series { label: &r.planner, index, runs: vec![r] }).collect();
+        let t = Strings::new(crate::report::Language::English);
+        for optimum in [Some(10.0), None] {
+            let value = figure("x", &series, optimum, "m", &t).unwrap();
+            let svg = value.get_attr("svg").unwrap().to_string();
+            let text = value.get_attr("text").unwrap().to_string();
+            assert!(text.contains("is not its length: weighted and less."), "{text}");
+            for (index, drawn) in [true, true, false, false, true].into_iter().enumerate() {
+                assert_eq!(svg.contains(&format!("data-series=\"{index}\"")), drawn, "{}", series[index].label);
+            }
+            assert_eq!(value.get_attr("rows").unwrap().len(), Some(3), "nor are they in the table");
+        }
+        assert!(figure("x", &series[2..4], Some(10.0), "m", &t).is_none());
+        assert!(nothing(&series[2..4], &t).contains("weighted and less"));
+        assert_eq!(nothing(&[], &t), t.get("convergence_none"));
     }
 
     #[test]

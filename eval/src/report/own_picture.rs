@@ -47,6 +47,7 @@ fn figure(stage: &Stage<'_>, snapshot: &Snapshot, index: usize, runs: &[&RunReco
         Some((heat, name)) => (bar(heat, name, TOP + camera.height() + BOTTOM), BAR),
         None => (String::new(), 0.0),
     };
+    let last = clipped(&format!("{id}-top"), camera, &drawing.top) + &foot.0;
     let text = drawing.sentences.join(t.get("sentence_gap")) + t.get("sentence_gap") + &pen.source(runs);
     let title = t.fill("own_title", &[("planner", &snapshot.planner)]);
     let what = Picture {
@@ -56,7 +57,7 @@ fn figure(stage: &Stage<'_>, snapshot: &Snapshot, index: usize, runs: &[&RunReco
         backdrop: &backdrop,
         lines: &drawing.above,
         words: true,
-        foot: (&foot.0, foot.1),
+        foot: (&last, foot.1),
     };
     let mut rows = drawing.rows;
     for (key, n) in [("own_iterations", snapshot.iteration), ("own_evaluations", snapshot.evaluations)] {
@@ -89,6 +90,8 @@ struct Drawing<'a> {
     below: String,
     /// Over them.
     above: String,
+    /// Over start and goal as well.
+    top: String,
     sentences: Vec<String>,
     /// Markup of a swatch, and what it means.
     keys: Vec<(String, String)>,
@@ -309,22 +312,24 @@ impl<'a> Pen<'a> {
 
     /// Hatches or dots the cells for which `has` says something.
     fn mark(&self, d: &mut Drawing<'_>, mesh: &Mesh, mark: CellMark, has: impl Fn(usize) -> Option<()>, words: &str) {
-        let class = match mark {
-            CellMark::Open => "open",
-            CellMark::Closed => "closed",
+        // Lines with one dash a cell. Shapes, not shades, tell them apart, with an edge of the
+        // other lightness: so they are the same on heat of any colour and on light and dark pages.
+        let strokes: &[&str] = match mark {
+            CellMark::Open => &["across", "down", "across core", "down core"],
+            CellMark::Closed => &["closed", "closed core"],
             CellMark::Blocked | CellMark::None => return self.hatch(d, mesh, has, words),
         };
-        let twice =
-            |data: &str| format!(r#"<path class="{class}" d="{data}"/><path class="{class} core" d="{data}"/>"#);
+        let draw = |data: &str| -> String {
+            strokes.iter().map(|class| format!(r#"<path class="{class}" d="{data}"/>"#)).collect()
+        };
         let mut data = String::new();
         for_each_run(mesh, has, |(), column, row, length| {
-            // A line of round dashes; a hundredth longer, so that rounding does not lose the last.
-            let _ = write!(data, "M{column} {row}h{}.01", length - 1);
+            let _ = write!(data, "M{:.1} {row}h{length}", column as f64 - 0.5);
         });
         d.below += &open_cells(mesh, self.camera, "dotted");
-        d.below += &twice(&data);
+        d.below += &draw(&data);
         d.below += "</g>";
-        d.key(&format!(r#"<g class="sample">{}</g>"#, twice("M12 7h0M24 7h0")), words);
+        d.key(&format!(r#"<g class="dotted" transform="translate(12 7) scale(12)">{}</g>"#, draw("M-.5 0h2")), words);
     }
 
     fn hatch(&self, d: &mut Drawing<'_>, mesh: &Mesh, has: impl Fn(usize) -> Option<()>, words: &str) {
@@ -430,7 +435,7 @@ impl<'a> Pen<'a> {
         self.row(d, "own_trail_points", format::count(trail.len() as f64));
         if let Some(spot) = stuck {
             let p = self.snapshot.ruler.point(spot);
-            d.above += &cross_mark(self.camera, p);
+            d.top += &cross_mark(self.camera, p);
             d.key(r#"<path class="cross" d="M12 1l12 12m0-12l-12 12"/>"#, self.t.get("own_stuck"));
             let [x, y] = [p.x, p.y].map(|v| format::significant(v, 4));
             self.say(d, "own_stuck_text", &[("x", &x), ("y", &y)]);

@@ -61,7 +61,8 @@ pub fn figure(id: &str, series: &[Series<'_>], t: &Strings) -> Option<Value> {
         HEIGHT - 10.0,
         escape(t.get("pareto_length"))
     );
-    svg += &staircase(&dots, &x, &y);
+    let stairs = staircase(&dots, &x, &y);
+    svg += &draw(&stairs);
     let places: Vec<(f64, f64)> = dots.iter().map(|d| (x.at(d.length), y.at(d.risk))).collect();
     for (d, (px, py)) in dots.iter().zip(&places) {
         let _ = write!(svg, r#"<g data-series="{}"><title>{}</title>"#, d.index, escape(d.label));
@@ -71,7 +72,7 @@ pub fn figure(id: &str, series: &[Series<'_>], t: &Strings) -> Option<Value> {
         svg += &palette::marker(d.index, *px, *py);
         svg += "</g>";
     }
-    svg += &labels(&dots, &places);
+    svg += &labels(&dots, &places, &stairs);
     svg += "</svg>";
     dots.sort_by(|a, b| a.length.total_cmp(&b.length).then(a.index.cmp(&b.index)));
     let rows: Vec<Value> = dots
@@ -103,21 +104,28 @@ fn dominates(a: (f64, f64), b: (f64, f64)) -> bool {
     a.0 <= b.0 && a.1 <= b.1 && a != b
 }
 
-/// The border of what the front's points dominate.
-fn staircase(dots: &[Dot<'_>], x: &Axis, y: &Axis) -> String {
+/// The corners of the border of what the front's points dominate.
+fn staircase(dots: &[Dot<'_>], x: &Axis, y: &Axis) -> Vec<(f64, f64)> {
     let mut front: Vec<(f64, f64)> = dots.iter().filter(|d| d.front).map(|d| (d.length, d.risk)).collect();
     front.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut data = String::new();
-    for (i, (length, risk)) in front.iter().enumerate() {
-        let (px, py) = (x.at(*length), y.at(*risk));
-        let _ = if i == 0 { write!(data, "M{px:.1} {TOP}V{py:.1}") } else { write!(data, "H{px:.1}V{py:.1}") };
+    let mut corners = Vec::new();
+    let mut above = TOP;
+    for (px, py) in front.iter().map(|(length, risk)| (x.at(*length), y.at(*risk))) {
+        corners.extend([(px, above), (px, py)]);
+        above = py;
     }
-    let _ = write!(data, "H{:.1}", chart::RIGHT);
-    format!(r#"<path class="stairs" d="{data}"/>"#)
+    corners.push((chart::RIGHT, above));
+    corners
 }
 
-/// A name beside each point, of points at one place together, where there is room; the table has them all.
-fn labels(dots: &[Dot<'_>], places: &[(f64, f64)]) -> String {
+fn draw(stairs: &[(f64, f64)]) -> String {
+    let corners: Vec<String> = stairs.iter().map(|(x, y)| format!("{x:.1} {y:.1}")).collect();
+    format!(r#"<path class="stairs" d="M{}"/>"#, corners.join("L"))
+}
+
+/// A name beside each point, of points at one place together, where there is room, on the
+/// dashed steps only where there is none elsewhere; the table has them all.
+fn labels(dots: &[Dot<'_>], places: &[(f64, f64)], stairs: &[(f64, f64)]) -> String {
     let mut out = String::new();
     let mut taken: Vec<[f64; 4]> = places.iter().map(|(x, y)| [x - 9.0, y - 9.0, x + 9.0, y + 9.0]).collect();
     for (i, (px, py)) in places.iter().enumerate() {
@@ -126,7 +134,7 @@ fn labels(dots: &[Dot<'_>], places: &[(f64, f64)]) -> String {
             continue; // named with the first
         }
         let names: Vec<&str> = (i..dots.len()).filter(|j| here(*j)).map(|j| dots[j].label).collect();
-        let name = names.join(", ");
+        let name = names.join(" · ");
         // Wide enough for most fonts; CJK characters are about twice as wide.
         let width: f64 = name.chars().map(|c| if c.is_ascii() { 8.2 } else { 15.0 }).sum();
         let spots = [
@@ -139,18 +147,28 @@ fn labels(dots: &[Dot<'_>], places: &[(f64, f64)]) -> String {
             (px - 11.0, py - 10.0, "end"),
             (px - 11.0, py + 20.0, "end"),
         ];
-        let fits = spots.iter().find_map(|(x, y, anchor)| {
-            let left = match *anchor {
-                "end" => x - width,
-                "middle" => x - 0.5 * width,
-                _ => *x,
-            };
-            let b = [left, y - 13.0, left + width, y + 4.0];
-            let inside = b[0] > chart::LEFT && b[2] < chart::WIDTH && b[1] > TOP - 14.0 && b[3] < BOTTOM;
-            let clear = taken.iter().all(|o| b[0] > o[2] || b[2] < o[0] || b[1] > o[3] || b[3] < o[1]);
-            (inside && clear).then_some((b, *x, *y, *anchor))
-        });
-        if let Some((b, x, y, anchor)) = fits {
+        let fit = |on_stairs: bool| {
+            spots.iter().find_map(|(x, y, anchor)| {
+                let left = match *anchor {
+                    "end" => x - width,
+                    "middle" => x - 0.5 * width,
+                    _ => *x,
+                };
+                let b = [left, y - 13.0, left + width, y + 4.0];
+                let inside = b[0] > chart::LEFT && b[2] < chart::WIDTH && b[1] > TOP - 14.0 && b[3] < BOTTOM;
+                let clear = taken.iter().all(|o| b[0] > o[2] || b[2] < o[0] || b[1] > o[3] || b[3] < o[1]);
+                let crossed = !on_stairs
+                    && stairs.windows(2).any(|s| {
+                        let ([(x0, y0), (x1, y1)], pad) = ([s[0], s[1]], 2.0);
+                        b[0] < x0.max(x1) + pad
+                            && b[2] > x0.min(x1) - pad
+                            && b[1] < y0.max(y1) + pad
+                            && b[3] > y0.min(y1) - pad
+                    });
+                (inside && clear && !crossed).then_some((b, *x, *y, *anchor))
+            })
+        };
+        if let Some((b, x, y, anchor)) = fit(false).or_else(|| fit(true)) {
             taken.push(b);
             let _ = write!(out, r#"<text class="label {anchor}" x="{x:.1}" y="{y:.1}">{}</text>"#, escape(&name));
         }
@@ -163,6 +181,21 @@ mod tests {
     use super::*;
     use crate::report::Language;
     use crate::report::tests::run;
+
+    #[test]
+    fn labels_keep_off_the_steps() {
+        let dot = |label, index, length, risk| Dot { label, index, length, risk, runs: 1, valid: 1, front: true };
+        let dots = [dot("low", 0, 0.0, 0.0)];
+        let places = [(300.0, 200.0)];
+        // Down to the point and on to the right: the usual place, right of the point, is taken.
+        let stairs = [(300.0, TOP), (300.0, 200.0), (chart::RIGHT, 200.0)];
+        assert!(labels(&dots, &places, &[]).contains("class=\"label \" x=\"314.0\""));
+        assert!(labels(&dots, &places, &stairs).contains("class=\"label end\" x=\"286.0\""));
+        // Steps everywhere: better on them than nowhere.
+        let everywhere: Vec<(f64, f64)> =
+            (0..40).map(|k| (20.0 * f64::from(k), if k % 4 < 2 { 0.0 } else { 400.0 })).collect();
+        assert!(labels(&dots, &places, &everywhere).contains(">low<"));
+    }
 
     #[test]
     fn the_front_is_what_nothing_dominates() {
@@ -191,7 +224,7 @@ mod tests {
             .collect();
         assert_eq!(on, ["a", "b", "d", "e"], "and points at one place are both on it");
         let svg = value.get_attr("svg").unwrap().to_string();
-        assert!(svg.contains(">d, e</text>"), "{svg}");
+        assert!(svg.contains(">d · e</text>"), "{svg}");
         assert_eq!(svg.matches("class=\"front\"").count(), 4);
         assert!(figure("x", &series[..1], &t).is_none(), "one point is no scatter");
         let plain = run("s", "p", 0, Some(11.0));

@@ -76,6 +76,7 @@ fn best(stage: &Stage<'_>, label: &str, index: usize, runs: &[&RunRecord], id: &
     let least_bad = || runs.iter().filter(|r| drawable(r)).min_by(|a, b| depth(a).total_cmp(&depth(b))).copied();
     let unit = stage.scene.scene.unit.as_str();
     let n = format::count(runs.len() as f64);
+    let only = runs.len() == 1;
     let mut lines = optimum(stage);
     let text = if let Some(run) = shortest {
         lines += &format!(
@@ -83,11 +84,17 @@ fn best(stage: &Stage<'_>, label: &str, index: usize, runs: &[&RunRecord], id: &
             palette::colour(index),
             polyline(&stage.camera, &run.path)
         );
-        let valid = format::count(runs.iter().filter(|r| r.valid).count() as f64);
+        let count = runs.iter().filter(|r| r.valid).count();
+        let valid = format::count(count as f64);
+        let key = match (runs.len(), count) {
+            (1, _) => "best_text_only",
+            (_, 1) => "best_text_one",
+            _ => "best_text",
+        };
         let length = format::length(counted_length(run));
         let (repeat, seed) = (run.repeat.to_string(), run.seed.to_string());
         let mut text = t.fill(
-            "best_text",
+            key,
             &[("valid", &valid), ("n", &n), ("length", &length), ("unit", unit), ("repeat", &repeat), ("seed", &seed)],
         );
         if let Some(gap) = run.gap {
@@ -107,9 +114,12 @@ fn best(stage: &Stage<'_>, label: &str, index: usize, runs: &[&RunRecord], id: &
             lines += &cross_mark(&stage.camera, violation.at);
         }
         let depth = run.clearance_min.map_or(format::NONE.to_owned(), |c| format::significant((-c).max(0.0), 3));
-        t.fill("best_none", &[("n", &n), ("repeat", &run.repeat.to_string()), ("depth", &depth), ("unit", unit)])
+        t.fill(
+            if only { "best_none_only" } else { "best_none" },
+            &[("n", &n), ("repeat", &run.repeat.to_string()), ("depth", &depth), ("unit", unit)],
+        )
     } else {
-        t.fill("best_no_path", &[("n", &n)])
+        t.fill(if only { "best_no_path_only" } else { "best_no_path" }, &[("n", &n)])
     };
     let title = t.fill("best_title", &[("planner", label)]);
     (figure(stage, id, &title, &text, &lines, true, t), text)
@@ -141,7 +151,11 @@ fn overlay(
     let valid = runs.iter().filter(|r| r.valid).count();
     let empty = runs.iter().filter(|r| !drawable(r)).count();
     let count = |n: usize| format::count(n as f64);
-    let mut sentences = vec![t.fill("all_text", &[("n", &count(runs.len())), ("valid", &count(valid))])];
+    let mut sentences = vec![match (runs.len(), valid) {
+        (1, 1) => t.get("all_only_valid").to_owned(),
+        (1, _) => t.get("all_only_invalid").to_owned(),
+        (n, _) => t.fill("all_text", &[("n", &count(n)), ("valid", &count(valid))]),
+    }];
     let invalid = runs.len() - valid - runs.iter().filter(|r| !r.valid && !drawable(r)).count();
     if invalid > 0 {
         sentences.push(t.plural(invalid, "all_invalid_one", "all_invalid"));

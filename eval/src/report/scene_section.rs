@@ -83,11 +83,13 @@ pub fn section(results: &Results, index: usize, extent: Extent, t: &Strings) -> 
     };
     let mut charts = (None, None, None);
     let mut own = (None, None);
+    let mut no_convergence = None;
     if extent == Extent::Full {
         let series: Vec<Series<'_>> =
             with_runs().map(|((index, p), runs)| Series { label: &p.label, index, runs: runs.clone() }).collect();
         let unit = scene.scene.unit.as_str();
         charts.0 = convergence::figure(&id("convergence", 0), &series, scene.optimum.length, unit, t);
+        no_convergence = charts.0.is_none().then(|| convergence::nothing(&series, t));
         charts.1 = spread(results, &[scene], &id("spread", 0), t);
         charts.2 = times(results, Some(name), &id("time", 0), t);
         own.0 = pareto::figure(&id("pareto", 0), &series, t);
@@ -101,7 +103,7 @@ pub fn section(results: &Results, index: usize, extent: Extent, t: &Strings) -> 
         known => !scene.optimum.path.is_empty(),
         table => if one { Value::from(()) } else { tables::comparison(results, Some(name), &scene.scene.unit, t) },
         copies => Value::from_safe_string(copies),
-        cards, miniatures, convergence => charts.0, pareto => own.0, fitness => own.1, spread => charts.1, times => charts.2,
+        cards, miniatures, convergence => charts.0, no_convergence, pareto => own.0, fitness => own.1, spread => charts.1, times => charts.2,
         more => by_planner.iter().any(|r| r.len() > DRAWN_SMALL), small_drawn => DRAWN_SMALL,
         full => extent == Extent::Full, runs => by_planner.iter().map(Vec::len).sum::<usize>(),
     }
@@ -149,14 +151,18 @@ pub fn spread(results: &Results, scenes: &[&SceneResult], id: &str, t: &Strings)
     let rows = rows(results, |r| names.contains(&r.scene.as_str()), &|r| {
         if by_gap { r.gap.unwrap_or(f64::INFINITY) } else { counted_length(r) }
     });
-    let runs = format::count(rows.iter().map(|r| r.values.len()).max().unwrap_or(0) as f64);
+    let runs = rows.iter().map(|r| r.values.len()).max().unwrap_or(0);
     let title = t.get(if by_gap { "gap_title" } else { "length_title" });
     let axis = if by_gap {
         t.get("gap_axis").to_owned()
     } else {
         tables::with_unit(t.get("length_axis"), scenes.first().map_or("", |s| s.scene.unit.as_str()))
     };
-    let mut text = t.fill(if by_gap { "gap_text" } else { "length_text" }, &[("n", &runs)]);
+    let mut text = if by_gap {
+        t.plural(runs, "gap_text_one", "gap_text")
+    } else {
+        t.plural(runs, "length_text_one", "length_text")
+    };
     let shown: usize = rows.iter().map(|r| r.values.len()).sum();
     let left = results.runs.iter().filter(|r| scenes.iter().any(|s| s.scene.name == r.scene)).count() - shown;
     if left > 0 {
@@ -171,8 +177,8 @@ pub fn spread(results: &Results, scenes: &[&SceneResult], id: &str, t: &Strings)
 /// How wall times spread, over one scene or all; every run counts, failed or not.
 pub fn times(results: &Results, scene: Option<&str>, id: &str, t: &Strings) -> Option<Value> {
     let rows = rows(results, |r| scene.is_none_or(|s| r.scene == s), &|r| r.time_us);
-    let runs = format::count(rows.iter().map(|r| r.values.len()).max().unwrap_or(0) as f64);
-    let text = t.fill("time_text", &[("n", &runs)]);
+    let runs = rows.iter().map(|r| r.values.len()).max().unwrap_or(0);
+    let text = t.plural(runs, "time_text_one", "time_text");
     let (title, axis) = (t.get("time_title"), t.get("time_axis"));
     strip::figure(&rows, &strip::Kind { id, title, axis, text: &text, number: format::time, floor: 1e-3 }, t)
 }

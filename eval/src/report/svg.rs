@@ -110,7 +110,7 @@ pub(super) struct Picture<'a> {
     pub lines: &'a str,
     /// Whether to write numbers and words into it.
     pub words: bool,
-    /// What stands below the drawing area, and how high it is.
+    /// What is drawn last, and how much room it takes below the drawing area.
     pub foot: (&'a str, f64),
 }
 

@@ -235,6 +235,74 @@ fn what_planners_did_is_drawn() {
 }
 
 #[test]
+fn marks_of_cells_do_not_depend_on_the_ground() {
+    let css = include_str!("figure.css");
+    for class in [".dotted", ".closed", ".across", ".down"] {
+        let rules: Vec<&str> = css.split_inclusive('}').filter(|rule| rule.trim_start().starts_with(class)).collect();
+        assert!(!rules.is_empty() && rules.iter().all(|rule| !rule.contains("var(")), "{class}: {rules:?}");
+    }
+}
+
+/// The page of one planner that showed `state`.
+fn shown(state: State) -> String {
+    let mut results = results(&["planner"], &["one"], 1);
+    results.snapshots.push(Snapshot {
+        scene: "one".to_owned(),
+        planner: "planner".to_owned(),
+        repeat: 0,
+        seed: 1000,
+        stage: "stage".to_owned(),
+        iteration: 12,
+        evaluations: 345,
+        faithful: true,
+        ruler: Ruler { origin: [0.0, 0.0], step: 0.0005 },
+        state,
+        generations: Vec::new(),
+    });
+    html(&results, Language::English)
+}
+
+#[test]
+fn keys_show_the_marks_of_the_picture() {
+    let page = shown(states().swap_remove(1));
+    let figure = page.split_once("class=\"own\"").unwrap().1.split_once("</figure>").unwrap().0;
+    for class in ["closed", "closed core", "across", "down", "across core", "down core"] {
+        assert_eq!(figure.matches(&format!("<path class=\"{class}\"")).count(), 2, "{class}: once in each");
+    }
+}
+
+#[test]
+fn the_cross_lies_over_start_and_goal() {
+    let page = shown(states().swap_remove(6));
+    let figure = page.split_once("class=\"own\"").unwrap().1.split_once("</svg>").unwrap().0;
+    assert!(figure.rfind("class=\"cross\"").unwrap() > figure.rfind("class=\"goal").unwrap());
+    assert_eq!(unbalanced(&format!("{}</svg>", &figure[figure.find("<svg").unwrap()..])), None);
+}
+
+#[test]
+fn one_run_is_not_many() {
+    let one = html(&results(&["a"], &["one"], 1), Language::English);
+    assert!(one.contains("The path of the only run, which is valid: ") && one.contains("1 run, which is valid."));
+    let mut failed = results(&["a"], &["one"], 1);
+    (failed.runs[0].valid, failed.runs[0].gap) = (false, None);
+    let invalid = html(&failed, Language::English);
+    assert!(invalid.contains("1 run, which is not valid.") && invalid.contains("The only run gave no valid path."));
+    failed.runs[0].path.clear();
+    let empty = html(&failed, Language::English);
+    assert!(empty.contains("The only run gave no path at all."));
+    let mut two = results(&["a"], &["one"], 2);
+    two.runs[0].valid = false;
+    let two = html(&two, Language::English);
+    assert!(two.contains("The only valid path in 2 runs:") && two.contains("2 runs overlaid, 1 of them valid."));
+    for page in [one, invalid, empty, two] {
+        for bad in ["1 runs", "1 valid paths", "1 are "] {
+            let hit = page.match_indices(bad).find(|(at, _)| !page[..*at].ends_with(|c: char| c.is_ascii_digit()));
+            assert!(hit.is_none(), "{bad:?} in {:?}", hit.map(|(at, _)| &page[at.saturating_sub(60)..at + 20]));
+        }
+    }
+}
+
+#[test]
 fn labels_cannot_break_out() {
     let evil = "<script>alert(\"1\")</script>'&规划器";
     let mut results = results(&["pso", evil], &[evil], 5);

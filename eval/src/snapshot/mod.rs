@@ -16,6 +16,8 @@ pub const LEVELS: u8 = 255;
 pub const NO_LEVEL: u8 = 255;
 /// Grids are thinned to about this many cells.
 pub const MOST_CELLS: usize = 40_000;
+/// More than any thinned grid has, however narrow.
+const BELIEVABLE: usize = 100 * MOST_CELLS;
 /// Trees are cut after this many nodes.
 pub const MOST_NODES: usize = 20_000;
 /// At most this many particles or individuals are kept.
@@ -48,6 +50,37 @@ pub struct Snapshot {
     pub state: State,
     /// Iteration, best and mean fitness, frame by frame, of populations; else empty.
     pub generations: Vec<(u64, f64, f64)>,
+}
+
+impl Snapshot {
+    /// Whether there is a number for each cell; a damaged record may say anything.
+    ///
+    /// # Errors
+    ///
+    /// What does not fit.
+    pub fn check(&self) -> Result<(), String> {
+        let fail = |what: String| Err(format!("of {} in {}: {what}", self.planner, self.scene));
+        let (mesh, lists) = match &self.state {
+            State::Cells { mesh, marks, heat, .. } => {
+                let marks = Some(marks.len()).filter(|n| *n > 0);
+                (Some(mesh), vec![("marks", marks), ("levels", heat.as_ref().map(|h| h.levels.len()))])
+            }
+            State::Forces { mesh, directions, .. } => (Some(mesh), vec![("directions", Some(directions.len()))]),
+            State::Population { mesh, .. } => (mesh.as_ref(), Vec::new()),
+            State::Swarm { .. } | State::Trees(_) => (None, Vec::new()),
+        };
+        let Some(mesh) = mesh else { return Ok(()) };
+        let (columns, rows) = (mesh.columns, mesh.rows);
+        let Some(cells) = columns.checked_mul(rows).filter(|n| (1..=BELIEVABLE).contains(n)) else {
+            return fail(format!("{columns} × {rows} cells; expected 1 to {BELIEVABLE} in all"));
+        };
+        for (name, length) in lists {
+            if let Some(length) = length.filter(|n| *n != cells) {
+                return fail(format!("{length} {name} for {columns} × {rows} cells; expected {cells}"));
+            }
+        }
+        Ok(())
+    }
 }
 
 /// A point in whole steps of a [`Ruler`].

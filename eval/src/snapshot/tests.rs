@@ -76,6 +76,54 @@ fn wide_ranges_are_logarithmic() {
 }
 
 #[test]
+fn damaged_records_are_refused() {
+    let grid = grid(4, 2);
+    let values = [1.0; 8];
+    let states = [CellState::Open; 8];
+    let view = CellsView {
+        grid: &grid,
+        blocked: &[],
+        states: &states,
+        values: &values,
+        quantity: "x",
+        borders: &[],
+        path: &[],
+    };
+    let whole = Snapshot {
+        scene: "s".to_owned(),
+        planner: "p".to_owned(),
+        repeat: 0,
+        seed: 1,
+        stage: "test".to_owned(),
+        iteration: 1,
+        evaluations: 1,
+        faithful: true,
+        ruler: ruler(),
+        state: state(&frame(View::Cells(view)), &ruler()).unwrap(),
+        generations: Vec::new(),
+    };
+    assert_eq!(whole.check(), Ok(()));
+    let damage = |change: &dyn Fn(&mut Mesh, &mut String, &mut Option<Heat>)| {
+        let mut damaged = whole.clone();
+        let State::Cells { mesh, marks, heat, .. } = &mut damaged.state else { panic!() };
+        change(mesh, marks, heat);
+        damaged.check().unwrap_err()
+    };
+    let said = damage(&|mesh, _, _| mesh.columns = 610_000_000);
+    assert!(said.starts_with("of p in s: 610000000 × 2 cells; expected 1 to"), "{said}");
+    damage(&|mesh, _, _| (mesh.columns, mesh.rows) = (usize::MAX, 2));
+    damage(&|mesh, _, _| mesh.columns = 0);
+    let said = damage(&|mesh, _, _| mesh.columns = 5);
+    assert_eq!(said, "of p in s: 8 marks for 5 × 2 cells; expected 10");
+    damage(&|_, marks, _| marks.truncate(7));
+    damage(&|_, _, heat| heat.as_mut().unwrap().levels.push(0));
+    let mut forces = whole.clone();
+    let State::Cells { mesh, .. } = whole.state else { panic!() };
+    forces.state = State::Forces { mesh, directions: vec![[0, 0]; 7], trail: Vec::new(), stuck: None };
+    assert!(forces.check().is_err());
+}
+
+#[test]
 fn large_grids_are_thinned() {
     let grid = grid(600, 301);
     let values: Vec<f64> = (0..grid.len()).map(|cell| grid.position(cell).0 as f64).collect();
