@@ -141,7 +141,7 @@ mod tests {
 
     #[test]
     fn equal_neighbours_are_one_line() {
-        let mesh = Mesh { min: [0.0, 0.0], size: 1.0, columns: 4, rows: 2, every: 1 };
+        let mesh = Mesh { min: [0.0, 0.0], size: 1.0, columns: 4, rows: 2, every: 1, whole: None };
         let levels = [0, 0, 254, 254, 0, NO_LEVEL, NO_LEVEL, 254];
         let mut runs = Vec::new();
         let key = |cell: usize| Some(levels[cell]).filter(|l| *l != NO_LEVEL);

@@ -130,8 +130,8 @@ impl<'a> Pen<'a> {
             State::Swarm { rectangle, particles, bests, best, total } => {
                 self.swarm(&mut d, rectangle, [particles, bests], best, *total);
             }
-            State::Cells { mesh, marks, heat, borders, path } => {
-                self.cells(&mut d, mesh, marks.as_bytes(), heat.as_ref(), borders, path);
+            State::Cells { mesh, marks, counts, heat, borders, path } => {
+                self.cells(&mut d, mesh, (marks.as_bytes(), *counts), heat.as_ref(), borders, path);
             }
             State::Trees(trees) => self.trees(&mut d, trees),
             State::Population { paths, mesh, best, total } => {
@@ -240,15 +240,16 @@ impl<'a> Pen<'a> {
         }
     }
 
+    /// Columns and rows of the planner's own grid.
     fn size(&self, mesh: &Mesh) -> [String; 2] {
-        [mesh.columns, mesh.rows].map(|n| format::count(n as f64))
+        mesh.whole.unwrap_or([mesh.columns, mesh.rows]).map(|n| format::count(n as f64))
     }
 
     fn cells(
         &self,
         d: &mut Drawing<'a>,
         mesh: &Mesh,
-        marks: &[u8],
+        (marks, counts): (&[u8], Option<[usize; 3]>),
         heat: Option<&'a Heat>,
         borders: &[[Spot; 2]],
         path: &[Spot],
@@ -264,13 +265,16 @@ impl<'a> Pen<'a> {
             self.heat(d, heat, mesh);
         }
         self.grid(d, mesh);
-        for (mark, key) in
-            [(CellMark::Blocked, "own_blocked"), (CellMark::Closed, "own_closed"), (CellMark::Open, "own_open")]
-        {
+        let kinds =
+            [(CellMark::Blocked, "own_blocked"), (CellMark::Closed, "own_closed"), (CellMark::Open, "own_open")];
+        for (k, (mark, key)) in kinds.into_iter().enumerate() {
             let is = |byte: &&u8| CellMark::from_byte(**byte) == mark;
-            let count = marks.iter().filter(is).count();
-            if count > 0 {
+            let drawn = marks.iter().filter(is).count();
+            if drawn > 0 {
                 self.mark(d, mesh, mark, |cell| marks.get(cell).filter(is).map(|_| ()), t.get(key));
+            }
+            let count = counts.map_or(drawn, |c| c[k]);
+            if count > 0 {
                 self.row(d, key, format::count(count as f64));
             }
         }

@@ -104,7 +104,7 @@ mod tests {
     use super::*;
 
     fn mesh(columns: usize, rows: usize) -> Mesh {
-        Mesh { min: [0.0, 0.0], size: 1.0, columns, rows, every: 1 }
+        Mesh { min: [0.0, 0.0], size: 1.0, columns, rows, every: 1, whole: None }
     }
 
     #[test]

@@ -151,12 +151,13 @@ fn the_page_holds_every_planner_and_figure() {
 
 /// Every kind of state, as small as it gets, and as odd as a damaged record may hold it.
 fn states() -> Vec<State> {
-    let mesh = |columns, rows| Mesh { min: [-1.0, -6.0], size: 3.0, columns, rows, every: 2 };
+    let mesh = |columns, rows| Mesh { min: [-1.0, -6.0], size: 3.0, columns, rows, every: 2, whole: None };
     let line = vec![[0, 0], [9000, 9000], [20_000, 12_000]];
     let heat = |levels| Heat { quantity: "risk".to_owned(), log: false, min: 0.0, max: 100.0, levels };
     let cells = |mesh, marks: &str, heat| State::Cells {
         mesh,
         marks: marks.to_owned(),
+        counts: None,
         heat,
         borders: vec![[[0, 0], [100, 100]]],
         path: line.clone(),
@@ -269,6 +270,18 @@ fn keys_show_the_marks_of_the_picture() {
     for class in ["closed", "closed core", "across", "down", "across core", "down core"] {
         assert_eq!(figure.matches(&format!("<path class=\"{class}\"")).count(), 2, "{class}: once in each");
     }
+}
+
+#[test]
+fn thinned_grids_are_described_as_the_planner_had_them() {
+    let mut state = states().swap_remove(1);
+    let State::Cells { mesh, counts, .. } = &mut state else { panic!() };
+    (mesh.whole, *counts) = (Some([7, 5]), Some([9, 8, 0]));
+    let page = shown(state);
+    let figure = page.split_once("class=\"own\"").unwrap().1;
+    assert!(figure.contains("grid of 7 × 5 cells. One row and one column in 2 of"), "size");
+    let table = figure.split_once("expanded cell</t").unwrap().1.split_once("</tr>").unwrap().0;
+    assert!(table.contains(">8<"), "{table}");
 }
 
 #[test]

@@ -147,6 +147,9 @@ pub enum State {
         mesh: Mesh,
         /// One [`mark`](CellMark) a cell; empty where the planner has none.
         marks: String,
+        /// Blocked, expanded and waiting cells of the planner's own grid; `None` in older records.
+        #[serde(default)]
+        counts: Option<[usize; 3]>,
         /// A number for each cell.
         heat: Option<Heat>,
         /// Borders between regions.
@@ -193,6 +196,9 @@ pub struct Mesh {
     pub rows: usize,
     /// Every `every`-th row and column of the planner's own grid is kept.
     pub every: usize,
+    /// Columns and rows of the planner's own grid; `None` in older records, which lack them.
+    #[serde(default)]
+    pub whole: Option<[usize; 2]>,
 }
 
 impl Mesh {
@@ -205,7 +211,10 @@ impl Mesh {
         let middle = |k: usize, count: usize| (k * every + every / 2).min(count - 1);
         let cells = (0..columns * rows)
             .map(|cell| grid.cell(middle(cell % columns, grid.columns()), middle(cell / columns, grid.rows())));
-        (Self { min: [min.x, min.y], size, columns, rows, every }, cells.collect())
+        (
+            Self { min: [min.x, min.y], size, columns, rows, every, whole: Some([grid.columns(), grid.rows()]) },
+            cells.collect(),
+        )
     }
 
     /// How many cells there are.
@@ -343,21 +352,23 @@ fn swarm(view: &SwarmView<'_>, ruler: &Ruler) -> State {
 
 fn cells(view: &CellsView<'_>, ruler: &Ruler) -> State {
     let (mesh, kept) = Mesh::of(view.grid);
-    let mark = |cell: &usize| {
-        let state = view.states.get(*cell).copied().unwrap_or_default();
+    let mark = |cell: usize| {
+        let state = view.states.get(cell).copied().unwrap_or_default();
         match state {
-            _ if view.blocked.get(*cell).copied().unwrap_or(false) => CellMark::Blocked,
+            _ if view.blocked.get(cell).copied().unwrap_or(false) => CellMark::Blocked,
             CellState::Untouched => CellMark::None,
             CellState::Open => CellMark::Open,
             CellState::Closed => CellMark::Closed,
         }
     };
+    let count = |of| (0..view.grid.len()).filter(|cell| mark(*cell) == of).count();
     let bare = view.blocked.is_empty() && view.states.is_empty();
     let values: Vec<f64> = kept.iter().filter_map(|cell| view.values.get(*cell).copied()).collect();
     let finite = |(a, b): &&(Point, Point)| [a.x, a.y, b.x, b.y].iter().all(|v| v.is_finite());
     State::Cells {
         mesh,
-        marks: if bare { String::new() } else { kept.iter().map(|cell| mark(cell).character()).collect() },
+        marks: if bare { String::new() } else { kept.iter().map(|cell| mark(*cell).character()).collect() },
+        counts: Some([CellMark::Blocked, CellMark::Closed, CellMark::Open].map(count)),
         heat: Heat::of(&values, view.quantity),
         borders: view.borders.iter().filter(finite).map(|(a, b)| [ruler.spot(*a), ruler.spot(*b)]).collect(),
         path: ruler.line(view.path),

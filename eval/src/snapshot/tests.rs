@@ -132,7 +132,7 @@ fn large_grids_are_thinned() {
     let State::Cells { mesh, marks, heat: Some(heat), .. } = state(&frame(View::Cells(view)), &ruler()).unwrap() else {
         panic!()
     };
-    assert_eq!((mesh.every, mesh.columns, mesh.rows), (3, 200, 101));
+    assert_eq!((mesh.every, mesh.columns, mesh.rows, mesh.whole), (3, 200, 101, Some([600, 301])));
     assert!(marks.is_empty());
     assert_eq!(heat.levels.len(), mesh.count());
     assert_eq!((heat.min, heat.max), (1.0, 598.0), "the middle one of three");
