@@ -26,8 +26,8 @@ const LEAST_LENGTH: f64 = 1e-3;
 /// Steps shrink slowly here: the descent ends at this many times the tolerance.
 const CREEP: f64 = 1e4;
 
-/// Shortening thins a longer path to about this many vertices: a solve stays below a millisecond.
-const MOST_VERTICES: usize = 16;
+/// Shortening thins a longer path to about this many vertices: a solve takes about a millisecond.
+const MOST_VERTICES: usize = 24;
 
 /// The convex pieces of all obstacles, in the world frame.
 struct Pieces {
