@@ -51,13 +51,7 @@ impl Map {
         let world = problem.world;
         let grid = CellGrid::along_longer_side(&world.extent(), cells);
         *checks += grid.occupy(world, &mut self.blocked);
-        for (end, p, joints) in [("start", problem.start, &mut self.entries), ("goal", problem.goal, &mut self.exits)] {
-            *checks += grid.entries(world, &self.blocked, p, joints);
-            if joints.is_empty() {
-                let size = grid.size();
-                return Err(PlanError::GridTooCoarse { key: "cells", value: cells, size, end, x: p.x, y: p.y });
-            }
-        }
+        problem.join(&grid, &self.blocked, ("cells", cells), [&mut self.entries, &mut self.exits], checks)?;
         self.moves.clear();
         self.nearness.clear();
         for cell in 0..grid.len() {

@@ -1,6 +1,6 @@
 //! What is to be planned.
 
-use env_model::{Point, World};
+use env_model::{CellGrid, Point, World};
 
 use crate::PlanError;
 
@@ -42,5 +42,28 @@ impl<'a> Problem<'a> {
             return Err(PlanError::StartIsGoal { x: start.x, y: start.y });
         }
         Ok(Self { world, start, goal })
+    }
+
+    /// The cells by which start and goal join `grid`, with the straight distances
+    /// to their centres: see [`CellGrid::entries`]. Adds the number of segment tests to `checks`.
+    ///
+    /// # Errors
+    /// [`PlanError::GridTooCoarse`], naming the setting `key` = `value` that decides the
+    /// cells' size, where an end sees no free cell.
+    pub fn join(
+        &self,
+        grid: &CellGrid,
+        blocked: &[bool],
+        (key, value): (&'static str, usize),
+        [from_start, to_goal]: [&mut Vec<(usize, f64)>; 2],
+        checks: &mut u64,
+    ) -> Result<(), PlanError> {
+        for (end, p, entries) in [("start", self.start, from_start), ("goal", self.goal, to_goal)] {
+            *checks += grid.entries(self.world, blocked, p, entries);
+            if entries.is_empty() {
+                return Err(PlanError::GridTooCoarse { key, value, size: grid.size(), end, x: p.x, y: p.y });
+            }
+        }
+        Ok(())
     }
 }

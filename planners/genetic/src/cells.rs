@@ -15,7 +15,7 @@ const DRAWS: usize = 16;
 pub struct CellBuffers {
     blocked: Vec<bool>,
     free: Vec<Gene>,
-    entries: Vec<(usize, f64)>,
+    entries: [Vec<(usize, f64)>; 2],
 }
 
 /// Grid, occupancy and ends of one problem.
@@ -41,15 +41,9 @@ impl<'p> Cells<'p> {
     pub fn new(problem: &Problem<'p>, along: usize, buffers: &'p mut CellBuffers) -> Result<Self, PlanError> {
         let world = problem.world;
         let grid = CellGrid::along_longer_side(&world.extent(), along);
-        let CellBuffers { blocked, free, entries } = buffers;
+        let CellBuffers { blocked, free, entries: [entries, exits] } = buffers;
         let mut checks = grid.occupy(world, blocked);
-        for (end, p) in [("start", problem.start), ("goal", problem.goal)] {
-            checks += grid.entries(world, blocked, p, entries);
-            if entries.is_empty() {
-                let (x, y) = (p.x, p.y);
-                return Err(PlanError::GridTooCoarse { key: "cells", value: along, size: grid.size(), end, x, y });
-            }
-        }
+        problem.join(&grid, blocked, ("cells", along), [entries, exits], &mut checks)?;
         free.clear();
         free.extend((0..grid.len()).filter(|c| !blocked[*c]).map(|c| c as Gene));
         Ok(Self { world, start: problem.start, goal: problem.goal, grid, blocked, free, checks })

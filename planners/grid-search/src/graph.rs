@@ -36,16 +36,8 @@ impl Graph {
         self.grid = CellGrid::along_longer_side(&world.extent(), cells);
         self.ends = [problem.start, problem.goal];
         *checks += self.grid.occupy(world, &mut self.blocked);
-        for (end, p, entries) in
-            [("start", problem.start, &mut self.from_start), ("goal", problem.goal, &mut self.to_goal)]
-        {
-            *checks += self.grid.entries(world, &self.blocked, p, entries);
-            if entries.is_empty() {
-                let size = self.grid.size();
-                return Err(PlanError::GridTooCoarse { key: "cells", value: cells, size, end, x: p.x, y: p.y });
-            }
-        }
-        Ok(())
+        let joints = [&mut self.from_start, &mut self.to_goal];
+        problem.join(&self.grid, &self.blocked, ("cells", cells), joints, checks)
     }
 
     pub fn nodes(&self) -> usize {

@@ -39,7 +39,7 @@ pub(crate) struct Map {
     /// Borders between the regions; only for observers.
     borders: Vec<(Point, Point)>,
     defenders: Vec<Point>,
-    entries: Vec<(usize, f64)>,
+    entries: [Vec<(usize, f64)>; 2],
 }
 
 impl Map {
@@ -55,7 +55,7 @@ impl Map {
             ends: Ends::default(),
             borders: Vec::new(),
             defenders: Vec::new(),
-            entries: Vec::new(),
+            entries: Default::default(),
         }
     }
 
@@ -89,16 +89,19 @@ impl Map {
         }
 
         self.ends.goal_cell = grid.cell_at(problem.goal);
-        for (end, p, joints) in
-            [("start", problem.start, &mut self.ends.starts), ("goal", problem.goal, &mut self.ends.goals)]
-        {
-            run.spent.collision_checks += grid.entries(world, &self.blocked, p, &mut self.entries);
-            if self.entries.is_empty() {
-                return Err(too_coarse(settings, world, grid, end, p));
-            }
+        let [starts, goals] = &mut self.entries;
+        problem.join(
+            grid,
+            &self.blocked,
+            decisive(settings, world),
+            [starts, goals],
+            &mut run.spent.collision_checks,
+        )?;
+        let ends = [(problem.start, &mut self.ends.starts), (problem.goal, &mut self.ends.goals)];
+        for (entries, (p, joints)) in self.entries.iter().zip(ends) {
             let own = grid.cell_at(p);
             joints.clear();
-            joints.extend(self.entries.iter().map(|&(cell, distance)| {
+            joints.extend(entries.iter().map(|&(cell, distance)| {
                 let length = if cell == own { 0.0 } else { distance / grid.size() * settings.dis };
                 Joint { cell, length, cost: scale.length(length) }
             }));
@@ -139,11 +142,10 @@ fn list_defenders(world: &World, defenders: &mut Vec<Point>) {
     }));
 }
 
-fn too_coarse(settings: &Settings, world: &World, grid: &CellGrid, end: &'static str, p: Point) -> PlanError {
-    // The dimension that decides the side of the cells.
+/// The dimension that decides the side of the cells, and its value.
+fn decisive(settings: &Settings, world: &World) -> (&'static str, usize) {
     let Settings { columns, rows, .. } = *settings;
     let size = world.extent().size();
     let wide = size.x * rows as f64 >= size.y * columns as f64;
-    let (key, value) = if wide { ("columns", columns) } else { ("rows", rows) };
-    PlanError::GridTooCoarse { key, value, size: grid.size(), end, x: p.x, y: p.y }
+    if wide { ("columns", columns) } else { ("rows", rows) }
 }

@@ -35,15 +35,10 @@ impl Neural {
 
     /// Lays the network and joins start and goal to it.
     fn set_up(&mut self, problem: &Problem<'_>, grid: &CellGrid, run: &mut Run<'_>) -> Result<(), PlanError> {
-        let Problem { world, start, goal, .. } = *problem;
-        run.spent.collision_checks += self.network.lay(world, grid, &self.settings);
-        for (end, p, cells) in [("start", start, &mut self.entries), ("goal", goal, &mut self.exits)] {
-            run.spent.collision_checks += grid.entries(world, self.network.blocked(), p, cells);
-            if cells.is_empty() {
-                let (value, size) = (self.settings.cells, grid.size());
-                return Err(PlanError::GridTooCoarse { key: "cells", value, size, end, x: p.x, y: p.y });
-            }
-        }
+        let checks = &mut run.spent.collision_checks;
+        *checks += self.network.lay(problem.world, grid, &self.settings);
+        let joints = [&mut self.entries, &mut self.exits];
+        problem.join(grid, self.network.blocked(), ("cells", self.settings.cells), joints, checks)?;
         for (cell, _) in &self.exits {
             self.network.excite(*cell, &self.settings);
         }
