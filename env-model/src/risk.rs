@@ -25,7 +25,7 @@ impl RiskMap {
     /// rings that reach the grid count.
     ///
     /// `go_on` is asked before each row; when it declines, the map is left half
-    /// done: the levels of the remaining rows are 0. Pass `|| true` to finish.
+    /// done: the remaining rows are 0 and the kernels missing. Pass `|| true` to finish.
     pub fn compute(
         &mut self,
         grid: &CellGrid,
@@ -40,7 +40,10 @@ impl RiskMap {
             let level = |cell| influence::level(q, defenders, grid.centre(cell));
             self.values.extend(cells.map(|cell| delta * level(cell) as f64));
         }
-        self.values.resize(grid.len(), 0.0);
+        if self.values.len() < grid.len() {
+            self.values.resize(grid.len(), 0.0);
+            return;
+        }
         for f in defenders {
             let at = (f - grid.aabb().min) / grid.size();
             let reach = kernel.len() as f64;

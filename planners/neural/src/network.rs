@@ -26,8 +26,20 @@ impl Network {
     ///
     /// A link is a move to a free neighbour that cuts no corner of a blocked cell:
     /// activity takes the ways that the robot can take, and no others.
-    pub fn lay(&mut self, world: &World, grid: &CellGrid, settings: &NeuralSettings) -> u64 {
+    ///
+    /// `go_on` is asked once the cells are tested; when it declines, there are no links.
+    pub fn lay(
+        &mut self,
+        world: &World,
+        grid: &CellGrid,
+        settings: &NeuralSettings,
+        go_on: impl FnOnce() -> bool,
+    ) -> u64 {
         let tests = grid.occupy(world, &mut self.blocked);
+        self.links.clear();
+        if !go_on() {
+            return tests;
+        }
         let inhibition = |blocked: &bool| if *blocked { settings.input } else { 0.0 };
         self.inhibition.clear();
         self.inhibition.extend(self.blocked.iter().map(inhibition));
@@ -35,7 +47,6 @@ impl Network {
         self.excitation.resize(grid.len(), 0.0);
         self.activity.clear();
         self.activity.resize(grid.len() + 1, 0.0);
-        self.links.clear();
         self.links.extend((0..grid.len()).map(|cell| {
             let mut links = [grid.len() as u32; 8];
             let mut ends = [0, 4];

@@ -33,10 +33,14 @@ impl Neural {
         Ok(Self { settings, network: Network::default(), exits: Vec::new(), entries: Vec::new() })
     }
 
-    /// Lays the network and joins start and goal to it.
+    /// Lays the network and joins start and goal to it. Left half done when the run's time is over.
     fn set_up(&mut self, problem: &Problem<'_>, grid: &CellGrid, run: &mut Run<'_>) -> Result<(), PlanError> {
+        let tests = self.network.lay(problem.world, grid, &self.settings, || run.in_time());
+        run.spent.collision_checks += tests;
+        if run.stopped() {
+            return Ok(());
+        }
         let checks = &mut run.spent.collision_checks;
-        *checks += self.network.lay(problem.world, grid, &self.settings);
         let joints = [&mut self.entries, &mut self.exits];
         problem.join(grid, self.network.blocked(), ("cells", self.settings.cells), joints, checks)?;
         for (cell, _) in &self.exits {
@@ -96,6 +100,10 @@ impl Planner for Neural {
         plan.clear();
         let grid = CellGrid::along_longer_side(&problem.world.extent(), self.settings.cells);
         self.set_up(problem, &grid, run)?;
+        if run.stopped() {
+            plan.counters = run.spent;
+            return Ok(Status::BudgetSpent);
+        }
         self.report(&grid, run, plan);
         let mut change = f64::INFINITY;
         let mut sweeps = 0;

@@ -43,7 +43,7 @@ fn from_every_cell_the_activity_leads_up_to_the_goal() {
         let world = World::new(&scene).unwrap();
         let grid = CellGrid::along_longer_side(&world.extent(), 60);
         let mut network = Network::default();
-        network.lay(&world, &grid, &settings);
+        network.lay(&world, &grid, &settings, || true);
         let goal = grid.cell_at(scene.goal());
         network.excite(goal, &settings);
         assert!((0..1000).any(|k| network.sweep(k % 2 == 0, &settings) <= settings.tolerance));

@@ -28,7 +28,7 @@ fn settled(world: &World, goal: (usize, usize), settings: &NeuralSettings) -> (C
     let cells = extent.size().x.max(extent.size().y) as usize;
     let grid = CellGrid::along_longer_side(&extent, cells);
     let mut network = Network::default();
-    network.lay(world, &grid, settings);
+    network.lay(world, &grid, settings, || true);
     network.excite(grid.cell(goal.0, goal.1), settings);
     // The last bit may flicker: a few units of it are rest enough.
     let rest = (0..10_000).any(|k| network.sweep(k % 2 == 0, settings) < 1e-15);
