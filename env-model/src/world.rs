@@ -151,6 +151,12 @@ impl World {
         });
     }
 
+    /// Whether `test` holds for the index of an obstacle whose box the segment `a b` may touch; asks no
+    /// further once it does.
+    pub fn any_along(&self, a: Point, b: Point, test: impl FnMut(usize) -> bool) -> bool {
+        self.bvh.any_along(a, b, test)
+    }
+
     /// Where `path` first goes deeper than ε into an obstacle or over the border; `None` for a valid path.
     /// A point that is not finite is outside everything: depth +∞, no obstacle.
     pub fn first_violation(&self, path: &[Point]) -> Option<Violation> {

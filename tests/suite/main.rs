@@ -3,6 +3,7 @@
 mod allocation;
 mod contract;
 mod golden;
+mod optimum;
 mod planners;
 mod rrt;
 mod scenes;

@@ -2,17 +2,26 @@
 
 use std::cmp::Ordering;
 
-/// An untested way to go on: along the circle of arrival `from`, then the tangent to circle `to`.
+/// An untested way to go on from an arrival.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Candidate {
     /// Lower bound of the whole path's length.
     pub bound: f64,
     /// Index of the arrival.
-    pub from: usize,
-    /// Index of the circle.
-    pub to: usize,
-    /// Whether the bound holds the exact arc, or a cheaper lower bound of it.
-    pub exact: bool,
+    pub from: u32,
+    /// Where to.
+    pub way: Way,
+}
+
+/// Where a candidate leads.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Way {
+    /// Along the circle, then the tangent to this circle.
+    Tangent(u32),
+    /// The same; the bound holds the exact arc and no longer a cheaper lower bound of it.
+    Measured(u32),
+    /// Tangents that lead farther round than those offered so far.
+    Farther,
 }
 
 impl Eq for Candidate {}
@@ -26,17 +35,6 @@ impl PartialOrd for Candidate {
 impl Ord for Candidate {
     /// The least bound is the greatest candidate, because `BinaryHeap` gives the greatest first.
     fn cmp(&self, other: &Self) -> Ordering {
-        other.bound.total_cmp(&self.bound).then_with(|| other.from.cmp(&self.from)).then_with(|| other.to.cmp(&self.to))
+        other.bound.total_cmp(&self.bound).then_with(|| (other.from, other.way).cmp(&(self.from, self.way)))
     }
-}
-
-/// Both tangents from an arrival to a member, put off because they lead too far round.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Deferred {
-    /// Lower bound of the whole path's length.
-    pub bound: f64,
-    /// Index of the arrival.
-    pub from: usize,
-    /// Number of the member.
-    pub member: usize,
 }

@@ -1,10 +1,10 @@
 //! The exact planner.
 
 use env_model::Point;
-use planner_api::{Plan, PlanError, Planner, Problem, Run, SettingError, Status, View};
+use planner_api::{Detail, Plan, PlanError, Planner, Problem, Run, SettingError, Status, TreeView, View};
 use serde::{Deserialize, Serialize};
 
-use crate::optimum::{among_discs, write_path};
+use crate::optimum::solve;
 use crate::search::{Outcome, Solver, Watch};
 
 /// What can be set.
@@ -34,22 +34,39 @@ impl Settings {
     }
 }
 
-/// The exact planner among discs.
+/// The exact planner.
 ///
-/// Solves with radii less ε/4, which leaves ε/4 for rounding to what planners
-/// call free ([`World::slack`](env_model::World::slack) = ε/2). Where other shapes or the border
-/// of the field stand in the way of that path, it returns the path with
-/// [`Status::NotFound`]: a lower bound, which collides.
+/// Solves with obstacles less ε/4, which leaves ε/4 for rounding to what planners
+/// call free ([`World::slack`](env_model::World::slack) = ε/2).
 ///
-/// Counts as iterations the rounds of the subset's growth, as evaluations the
-/// arrivals expanded, as collision checks the tangents tested. A frame shows a
-/// round's path: the shortest among the obstacles met so far, a lower bound.
+/// Counts as iterations the lengths up to which paths were looked for, as
+/// evaluations the arrivals expanded, as collision checks the tangents tested. A
+/// frame shows the tree of arrivals, with chords for arcs.
 #[derive(Debug)]
 pub struct Tangent {
     settings: Settings,
     solver: Solver,
-    /// A buffer for frames.
-    sketch: Vec<Point>,
+    tree: Tree,
+}
+
+/// Buffers for frames.
+#[derive(Debug, Default)]
+struct Tree {
+    nodes: Vec<Point>,
+    parents: Vec<u32>,
+}
+
+impl Tree {
+    fn show(&mut self, run: &mut Run<'_>, cost: f64, write: impl FnOnce(&mut Vec<Point>, &mut Vec<u32>)) {
+        let Self { nodes, parents } = self;
+        if run.detail() == Detail::State {
+            nodes.clear();
+            parents.clear();
+            write(nodes, parents);
+        }
+        let trees = [TreeView { nodes, parents }];
+        run.report(STAGE, cost, || View::Trees(&trees));
+    }
 }
 
 impl Tangent {
@@ -59,34 +76,35 @@ impl Tangent {
     /// The setting outside its range.
     pub fn new(settings: Settings) -> Result<Self, SettingError> {
         settings.validate()?;
-        Ok(Self { settings, solver: Solver::new(), sketch: Vec::new() })
+        Ok(Self { settings, solver: Solver::new(), tree: Tree::default() })
     }
 }
 
 impl Planner for Tangent {
     fn plan_into(&mut self, problem: &Problem<'_>, run: &mut Run<'_>, plan: &mut Plan) -> Result<Status, PlanError> {
         plan.clear();
-        let Self { settings, solver, sketch } = self;
-        let straight = [problem.start, problem.goal];
-        run.report(STAGE, f64::INFINITY, || View::Path(&straight));
-        let slack = problem.world.slack();
-        let outcome = among_discs(solver, problem, 0.5 * slack, &mut Supervised { run, sketch });
+        let Self { settings, solver, tree } = self;
+        tree.show(run, f64::INFINITY, |nodes, parents| {
+            nodes.push(problem.start);
+            parents.push(0);
+        });
+        let outcome = solve(solver, problem, 0.5 * problem.world.slack(), &mut Supervised { run, tree });
         let status = match outcome {
             Outcome::Stopped => Status::BudgetSpent,
             // What is closed by less than ε is open to the judge: no proof then.
             Outcome::Infeasible => {
-                match among_discs(solver, problem, problem.world.epsilon(), &mut Supervised { run, sketch }) {
+                match solve(solver, problem, problem.world.epsilon(), &mut Supervised { run, tree }) {
                     Outcome::Infeasible => Status::Infeasible,
                     Outcome::Stopped => Status::BudgetSpent,
                     Outcome::Found { .. } => Status::NotFound,
                 }
             }
             Outcome::Found { length } => {
-                let obstruction = write_path(solver, problem, slack, settings.excess, &mut plan.path);
+                solver.write_polyline(settings.excess, &mut plan.path);
                 plan.cost = length;
                 run.spent.iterations += 1;
-                run.report(STAGE, length, || View::Path(&plan.path));
-                if obstruction.is_some() { Status::NotFound } else { Status::Solved }
+                tree.show(run, length, |nodes, parents| solver.write_tree(nodes, parents));
+                Status::Solved
             }
         };
         plan.counters = run.spent;
@@ -99,7 +117,7 @@ const STAGE: &str = "tangent";
 /// The run watches the search.
 struct Supervised<'a, 'r> {
     run: &'a mut Run<'r>,
-    sketch: &'a mut Vec<Point>,
+    tree: &'a mut Tree,
 }
 
 impl Watch for Supervised<'_, '_> {
@@ -115,11 +133,8 @@ impl Watch for Supervised<'_, '_> {
         self.run.spent.collision_checks += 1;
     }
 
-    fn collided(&mut self, write: impl FnOnce(&mut Vec<Point>)) {
+    fn raised(&mut self, write: impl FnOnce(&mut Vec<Point>, &mut Vec<u32>)) {
         self.run.spent.iterations += 1;
-        self.run.report(STAGE, f64::INFINITY, || {
-            write(self.sketch);
-            View::Path(self.sketch)
-        });
+        self.tree.show(self.run, f64::INFINITY, write);
     }
 }

@@ -1,14 +1,18 @@
 //! A taut path: straight pieces joined by arcs, and its polyline.
 
-use env_model::geometry::point_segment_distance;
+use env_model::geometry::segment_segment_distance;
 use env_model::{Aabb, Point, Vector};
 
 use crate::bitangent::{OrientedCircle, perp};
-use crate::discs::Discs;
+use crate::terrain::{BroadPhase, Piece, Terrain};
 
 /// The most that one corner of the polyline turns, radians. Keeps the
 /// expansion of tan that [`Route::write`] relies on good to 3 %.
 const LARGEST_STEP: f64 = 0.5;
+/// The same where circles are so small that every corner may be as long as its
+/// arc again: 2 tan(1) = 3.1 for 2.
+const LARGEST_ANYWAY: f64 = 2.0;
+
 /// An arc of a taut path.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Arc {
@@ -23,18 +27,15 @@ pub(crate) struct Arc {
 }
 
 impl Arc {
-    /// Direction from the centre after the fraction `angle` of the turn, unit length.
-    fn outward(&self, angle: f64) -> Vector {
-        let sense = self.circle.rho.signum();
-        let out = perp(self.heading) * -sense;
-        let (sin, cos) = libm::sincos(angle);
-        out * cos + perp(out) * (sin * sense)
+    /// Direction from the centre on arrival, unit length.
+    fn outward(&self) -> Vector {
+        perp(self.heading) * -self.circle.rho.signum()
     }
+}
 
-    /// The point of its circle after turning by `angle`.
-    pub fn point(&self, angle: f64) -> Point {
-        self.circle.centre + self.outward(angle) * self.circle.rho.abs()
-    }
+/// `v` turned by an angle in the sense of `sense` = ±1.
+fn turned(v: Vector, (sin, cos): (f64, f64), sense: f64) -> Vector {
+    v * cos + perp(v) * (sin * sense)
 }
 
 /// A taut path, in coordinates relative to the start.
@@ -42,8 +43,8 @@ impl Arc {
 pub(crate) struct Route {
     /// The arcs from start to goal.
     pub arcs: Vec<Arc>,
-    /// Discs that a corner outside an arc might enter.
-    near: Vec<(Point, f64)>,
+    /// Pieces that a corner outside an arc might enter.
+    near: Vec<Piece>,
     /// Exact length.
     pub length: f64,
 }
@@ -61,45 +62,63 @@ impl Route {
         self.arcs.push(Arc { circle, heading, turn, near_end: self.near.len() });
     }
 
-    /// Notes which discs lie so near the arcs that polylines must mind them.
-    pub fn note_near<D: Discs>(&mut self, discs: &D) {
-        // A corner of step δ lies r(1/cos(δ/2) − 1) outside the arc, ≤ 0.033 r.
-        let bulge = 1.0 / libm::cos(0.5 * LARGEST_STEP);
-        for arc in &mut self.arcs {
+    /// Notes which pieces lie so near the arcs that polylines must mind them.
+    pub fn note_near<B: BroadPhase>(&mut self, terrain: &Terrain, near: &B) {
+        let Self { arcs, near: list, .. } = self;
+        for arc in arcs {
+            // A corner of step δ lies r(1/cos(δ/2) − 1) outside the arc: 0.033 r, or 0.85 r on the smallest circles.
             let (centre, r) = (arc.circle.centre, arc.circle.rho.abs());
-            discs.around(centre, bulge * r, |j| {
-                if let Some((c, rj)) = discs.disc(j) {
-                    let distance = (c - centre).norm();
-                    // A disc inside the arc's own cannot be entered from outside.
-                    if distance < bulge * r + rj && distance + rj > r {
-                        self.near.push((c, rj));
-                    }
+            let bulge = 1.86 * r;
+            terrain.pieces_near(near, &Aabb { min: centre, max: centre }.inflated(bulge), |site| {
+                let Some(piece) = terrain.piece(site) else { return };
+                let distance = piece.core_distance(centre);
+                // A disc inside the arc's own cannot be entered from outside.
+                let within = piece.from == piece.to && distance + piece.radius <= r;
+                if distance < bulge + piece.radius && !within {
+                    list.push(piece);
                 }
             });
-            arc.near_end = self.near.len();
+            arc.near_end = list.len();
         }
     }
 
     /// Appends the corners of a polyline round the outside of every arc: its
-    /// segments are tangents, so it enters no disc by more than `tolerance`.
+    /// segments are tangents, so it enters no obstacle by more than the tolerance.
     ///
     /// A corner that turns by δ replaces rδ by 2r tan(δ/2) = rδ(1 + δ²/12 + δ⁴/120 + …).
     /// With A = Σrθ the total excess stays below `excess` · length for
     /// δ = √(12 · excess · length/A), less 3 % for the higher terms. Where a
-    /// corner would enter another disc or leave `bounds`, its step is halved.
-    pub fn write(&self, excess: f64, bounds: Option<&Aabb>, tolerance: f64, mut corner: impl FnMut(Point)) {
+    /// corner would enter another obstacle or leave the field, its step is halved.
+    pub fn write(&self, terrain: &Terrain, excess: f64, mut corner: impl FnMut(Point)) {
         let total: f64 = self.arcs.iter().map(|arc| arc.circle.rho.abs() * arc.turn).sum();
         // A caller's 0 must not ask for infinitely many corners.
-        let excess = excess.max(1e-12);
-        let step = (0.97 * 12.0 * excess * self.length / total).sqrt().min(LARGEST_STEP);
+        let share = excess.max(1e-12) * self.length / total;
+        let step = if share > 0.6 { LARGEST_ANYWAY } else { (0.97 * 12.0 * share).sqrt().min(LARGEST_STEP) };
         let mut begin = 0;
         for arc in &self.arcs {
-            let around = Surroundings { discs: &self.near[begin..arc.near_end], bounds, tolerance };
+            let near = &self.near[begin..arc.near_end];
             begin = arc.near_end;
+            let around = Surroundings { near, bounds: terrain.bounds(), tolerance: terrain.tolerance() };
             let pieces = (arc.turn / step).ceil().max(1.0);
             let delta = arc.turn / pieces;
-            for i in 0..pieces as u64 {
-                arc.piece(i as f64 * delta, delta, &around, &mut corner);
+            let (half, whole) = (libm::sincos(0.5 * delta), libm::sincos(delta));
+            let sense = arc.circle.rho.signum();
+            let mut out = arc.outward();
+            let OrientedCircle { centre, rho } = arc.circle;
+            let outer = rho.abs() / half.1;
+            if near.is_empty() && terrain.bounds().is_none_or(|b| b.depth_of(centre) >= outer) {
+                let mut apex = turned(out, half, sense) * outer;
+                for _ in 0..pieces as u64 {
+                    corner(centre + apex);
+                    apex = turned(apex, whole, sense);
+                }
+                continue;
+            }
+            for _ in 0..pieces as u64 {
+                let middle = turned(out, half, sense);
+                let end = turned(out, whole, sense);
+                arc.piece([out, middle, end], delta, half.1, &around, &mut corner);
+                out = end;
             }
         }
     }
@@ -107,37 +126,46 @@ impl Route {
 
 /// What the corners of one arc must mind.
 struct Surroundings<'a> {
-    discs: &'a [(Point, f64)],
+    near: &'a [Piece],
     bounds: Option<&'a Aabb>,
     tolerance: f64,
 }
 
 impl Surroundings<'_> {
     fn allow(&self, a: Point, apex: Point, b: Point) -> bool {
-        let clear = |c: Point, r: f64| {
-            let limit = r - self.tolerance;
-            point_segment_distance(c, a, apex) >= limit && point_segment_distance(c, apex, b) >= limit
+        let clear = |piece: &Piece, p: Point, q: Point| {
+            segment_segment_distance(p, q, piece.from, piece.to) >= piece.radius - self.tolerance
         };
-        self.bounds.is_none_or(|bounds| bounds.depth_of(apex) >= 0.0) && self.discs.iter().all(|&(c, r)| clear(c, r))
+        self.bounds.is_none_or(|bounds| bounds.depth_of(apex) >= 0.0)
+            && self.near.iter().all(|piece| clear(piece, a, apex) && clear(piece, apex, b))
     }
 }
 
 impl Arc {
-    /// Appends one corner for the angles from `from` to `from + delta`, or several
+    /// Appends one corner for `delta` of the arc between two outward directions,
+    /// with the one in the middle and the cosine of half the angle, or several
     /// where the surroundings ask for it. The arc itself is free, so a bulge
     /// below the tolerance will do.
-    fn piece(&self, from: f64, delta: f64, around: &Surroundings<'_>, corner: &mut impl FnMut(Point)) {
-        let half = 0.5 * delta;
-        let radius = self.circle.rho.abs();
-        let outer = radius / libm::cos(half);
-        let apex = self.circle.centre + self.outward(from + half) * outer;
-        let alone = around.discs.is_empty() && around.bounds.is_none();
-        if alone || outer - radius <= around.tolerance || around.allow(self.point(from), apex, self.point(from + delta))
-        {
+    fn piece(
+        &self,
+        [from, middle, to]: [Vector; 3],
+        delta: f64,
+        cosine: f64,
+        around: &Surroundings<'_>,
+        corner: &mut impl FnMut(Point),
+    ) {
+        let OrientedCircle { centre, rho } = self.circle;
+        let radius = rho.abs();
+        let outer = radius / cosine;
+        let apex = centre + middle * outer;
+        if outer - radius <= around.tolerance || around.allow(centre + from * radius, apex, centre + to * radius) {
             corner(apex);
         } else {
-            self.piece(from, half, around, corner);
-            self.piece(from + half, half, around, corner);
+            let quarter = libm::sincos(0.25 * delta);
+            let sense = rho.signum();
+            let [first, second] = [from, middle].map(|v| turned(v, quarter, sense));
+            self.piece([from, first, middle], 0.5 * delta, quarter.1, around, corner);
+            self.piece([middle, second, to], 0.5 * delta, quarter.1, around, corner);
         }
     }
 }

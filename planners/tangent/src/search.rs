@@ -1,22 +1,24 @@
-//! A* over arrivals on oriented circles, with the obstacles discovered on the way.
+//! A* over arrivals on oriented circles, the graph discovered on the way.
 
 use std::collections::BinaryHeap;
 
-use env_model::{Aabb, Point, Vector};
+use env_model::{Aabb, Point, Vector, World};
 
-use crate::bitangent::{Bitangent, OrientedCircle};
-use crate::candidate::{Candidate, Deferred};
-use crate::discs::{Discs, Listed};
-use crate::pairs::PairSet;
+use crate::bitangent::{Bitangent, OrientedCircle, perp};
+use crate::candidate::{Candidate, Way};
+use crate::covers::{Covers, Reach};
+use crate::lens::{Origin, Sight, Sweep};
 use crate::route::Route;
 use crate::separation::Separation;
-use crate::subset::{GOAL, START, Subset};
+use crate::terrain::{BroadPhase, Everything, GOAL, START, Terrain, Within};
 
 /// After so many arrivals it pays to ask whether start and goal are separated at all.
 const ASK_SEPARATION: usize = 256;
 
-/// A round first looks at paths this much longer, relatively, than the last round's.
+/// Paths are first looked for this much longer, relatively, than the straight line.
 const HEADROOM: f64 = 2e-3;
+/// By this factor the limit's excess over the straight line grows when it has proved too low.
+const GROWTH: f64 = 2.0;
 
 /// How a search ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,7 +28,7 @@ pub enum Outcome {
         /// Its length.
         length: f64,
     },
-    /// There is none: the discs separate start from goal, or hold one of them.
+    /// There is none: obstacles separate start from goal, or hold one of them.
     Infeasible,
     /// The caller stopped the search.
     Stopped,
@@ -40,11 +42,11 @@ pub(crate) trait Watch {
     }
     /// An arrival was expanded.
     fn expanded(&mut self) {}
-    /// A segment was tested against the world.
+    /// A tangent was tested against the obstacles.
     fn tested(&mut self) {}
-    /// A round is over: the shortest path among the subset collides with the rest.
-    /// `write` writes it, arcs coarsely.
-    fn collided(&mut self, _write: impl FnOnce(&mut Vec<Point>)) {}
+    /// No path is as short as the limit, which is about to rise. `write` writes
+    /// the tree of arrivals: where they touch, and their parents.
+    fn raised(&mut self, _write: impl FnOnce(&mut Vec<Point>, &mut Vec<u32>)) {}
 }
 
 impl Watch for () {}
@@ -52,9 +54,11 @@ impl Watch for () {}
 /// A path has come to `circle`, touching it with unit `heading`.
 #[derive(Debug, Clone, Copy)]
 struct Arrival {
-    circle: usize,
+    circle: u32,
     /// The arrival before; its own index for the start.
-    parent: usize,
+    parent: u32,
+    /// The arrival on the same circle that was found before this one, plus one; 0 if none.
+    older: u32,
     heading: Vector,
     /// Length so far.
     cost: f64,
@@ -62,37 +66,114 @@ struct Arrival {
     point: Point,
     /// How far it can follow the circle, radians.
     reach: f64,
-    /// The arrival on the same circle that was found before this one.
-    older: Option<usize>,
+    /// Candidates up to this bound have been offered.
+    offered: f64,
+    /// Whether the open set holds [`Way::Farther`] for it.
+    pending: bool,
 }
 
 /// An exact shortest-path solver. Keeps its buffers: a second query of the same size allocates nothing.
 #[derive(Debug, Default)]
 pub struct Solver {
-    subset: Subset,
+    terrain: Terrain,
+    covers: Covers,
+    sweep: Sweep,
+    /// Among few obstacles: the sites of those that have been in the way.
+    members: Vec<u32>,
+    /// Those obstacles.
+    in_the_way: Vec<u32>,
+    /// Whether an obstacle is one of them.
+    joined: Vec<bool>,
     arrivals: Vec<Arrival>,
-    /// The latest arrival on every circle.
-    latest: Vec<Option<usize>>,
+    /// The latest arrival on every circle, plus one; 0 if none.
+    latest: Vec<u32>,
     open: BinaryHeap<Candidate>,
-    /// What is not worth a look until paths of length `limit` have failed.
-    deferred: Vec<Deferred>,
+    /// No path longer than this is looked at yet.
     limit: f64,
-    /// Tangents that a disc blocks.
-    blocked: PairSet,
-    /// Tangents that are free in the whole world.
-    clear: PairSet,
     separation: Separation,
     route: Route,
-    /// Arrivals expanded in all rounds.
-    expanded: usize,
-    /// When to ask whether start and goal are separated.
-    ask_at: usize,
-    /// The last arrival of the round's path.
-    last: usize,
     found: bool,
     /// Start and goal as given; everything else is relative to the start.
     ends: [Point; 2],
-    tolerance: f64,
+}
+
+/// Number of a site's circle that is passed clockwise or not.
+fn circle(site: usize, clockwise: bool) -> usize {
+    2 * site + usize::from(clockwise)
+}
+
+/// Candidates from one arrival.
+struct Offers<'a> {
+    terrain: &'a Terrain,
+    open: &'a mut BinaryHeap<Candidate>,
+    from: u32,
+    arrival: Arrival,
+    leaving: OrientedCircle,
+    /// Bounds above the first and up to the second are wanted.
+    bounds: [f64; 2],
+    /// Whether one had a greater bound.
+    longer: bool,
+}
+
+impl<'a> Offers<'a> {
+    fn new(
+        terrain: &'a Terrain,
+        open: &'a mut BinaryHeap<Candidate>,
+        from: u32,
+        arrival: &Arrival,
+        bounds: [f64; 2],
+    ) -> Self {
+        let leaving = oriented(terrain, arrival.circle as usize);
+        Self { terrain, open, from, arrival: *arrival, leaving, bounds, longer: false }
+    }
+
+    fn origin(&self) -> Origin {
+        let Arrival { circle, point, cost, .. } = self.arrival;
+        Origin { circle: self.leaving, site: circle as usize / 2, point, room: self.bounds[1] - cost }
+    }
+
+    /// Offers both tangents to a site.
+    fn add_site(&mut self, number: usize) {
+        let site = self.terrain.site(number);
+        if number == self.arrival.circle as usize / 2 {
+            return;
+        }
+        // Rounding must not lose a site between two limits.
+        if self.arrival.cost + site.via(self.arrival.point) > self.bounds[1] + self.terrain.tolerance() {
+            self.longer = true;
+            return;
+        }
+        for rho in [site.radius, -site.radius] {
+            let circle = OrientedCircle { centre: site.centre, rho };
+            if let Some(tangent) = Bitangent::between(&self.leaving, &circle, self.terrain.tolerance()) {
+                self.add(&Sight { site: number, circle, tangent });
+            }
+        }
+    }
+
+    /// Offers a tangent.
+    fn add(&mut self, Sight { site, circle: target, tangent }: &Sight) {
+        let Arrival { heading, reach, cost, .. } = self.arrival;
+        let turn = self.leaving.turn_at_least(heading, tangent.heading);
+        if turn > reach {
+            return;
+        }
+        let touch = target.touch(tangent.heading);
+        let bound = cost + turn * self.leaving.rho.abs() + tangent.length + (self.terrain.goal() - touch).norm();
+        let outward = perp(tangent.heading) * -target.rho.signum();
+        if bound > self.bounds[1] {
+            self.longer = true;
+        } else if bound > self.bounds[0] && self.terrain.on_outline(*site, outward) {
+            let to = circle(*site, target.rho < 0.0) as u32;
+            self.open.push(Candidate { bound, from: self.from, way: Way::Tangent(to) });
+        }
+    }
+}
+
+/// The circle of that number.
+fn oriented(terrain: &Terrain, circle: usize) -> OrientedCircle {
+    let site = terrain.site(circle / 2);
+    OrientedCircle { centre: site.centre, rho: if circle % 2 == 1 { -site.radius } else { site.radius } }
 }
 
 impl Solver {
@@ -113,274 +194,251 @@ impl Solver {
         let bounds = discs.iter().fold(Aabb::of_points([&start, &goal]), |b, &(c, r)| {
             if r > 0.0 { b.union(Aabb { min: c, max: c }.inflated(r)) } else { b }
         });
-        self.search(&Listed { discs, origin: start.coords }, start, goal, 1e-12 * bounds.diagonal(), &mut ())
+        self.ends = [start, goal];
+        self.terrain.read_discs(discs, start, goal, 1e-12 * bounds.diagonal());
+        self.search(&Everything(discs.len()), &mut ())
+    }
+
+    /// The same among the obstacles of `world`, less `shrink`, within its field.
+    /// The path may enter what is left by `tolerance`.
+    pub(crate) fn shortest_in<W: Watch>(
+        &mut self,
+        world: &World,
+        [start, goal]: [Point; 2],
+        shrink: f64,
+        tolerance: f64,
+        watch: &mut W,
+    ) -> Outcome {
+        self.ends = [start, goal];
+        self.terrain.read_world(world, start, goal, shrink, tolerance);
+        self.search(&Within { world, origin: start.coords }, watch)
     }
 
     /// Writes the path found last as a polyline whose segments touch the arcs
-    /// from outside: it enters no disc, and is longer than the exact path by at
-    /// most the fraction `max_relative_excess`, > 0. Empty unless a path was found.
+    /// from outside: it enters no obstacle, and is longer than the exact path by
+    /// at most the fraction `max_relative_excess`, > 0. Empty unless a path was found.
     pub fn write_polyline(&self, max_relative_excess: f64, out: &mut Vec<Point>) {
-        self.write_polyline_within(None, max_relative_excess, out);
-    }
-
-    /// The same, keeping the corners inside `bounds`, which must hold the exact path.
-    pub(crate) fn write_polyline_within(&self, bounds: Option<&Aabb>, max_relative_excess: f64, out: &mut Vec<Point>) {
         out.clear();
         if !self.found {
             return;
         }
         let [start, goal] = self.ends;
-        let bounds = bounds.map(|b| Aabb { min: b.min - start.coords, max: b.max - start.coords });
         out.push(start);
-        self.route.write(max_relative_excess, bounds.as_ref(), self.tolerance, |p| out.push(p + start.coords));
+        self.route.write(&self.terrain, max_relative_excess, |p| out.push(p + start.coords));
         out.push(goal);
         out.dedup();
     }
 
-    /// The path found last.
-    pub(crate) fn route(&self) -> &Route {
-        &self.route
-    }
-
-    /// See [`Solver::shortest`]; `discs` are relative to `start`.
-    pub(crate) fn search<D: Discs, W: Watch>(
-        &mut self,
-        discs: &D,
-        start: Point,
-        goal: Point,
-        tolerance: f64,
-        watch: &mut W,
-    ) -> Outcome {
-        self.ends = [start, goal];
-        self.tolerance = tolerance;
-        let goal = goal - start.coords;
+    /// A* on the terrain.
+    fn search<B: BroadPhase, W: Watch>(&mut self, near: &B, watch: &mut W) -> Outcome {
         self.route.clear();
         self.found = false;
-        self.subset.reset(discs.len(), Point::origin(), goal, tolerance);
-        self.blocked.clear();
-        self.clear.clear();
+        let goal = self.terrain.goal();
         for end in [Point::origin(), goal] {
-            if self.subset.deepest(discs, end, end, [None; 2]).is_some() {
+            if self.terrain.blocks(near, end, end) {
                 return Outcome::Infeasible;
             }
         }
-        if start == self.ends[GOAL] {
+        if goal == Point::origin() {
             self.found = true;
             return Outcome::Found { length: 0.0 };
         }
-        self.limit = goal.coords.norm() * (1.0 + HEADROOM);
-        self.expanded = 0;
-        self.ask_at = ASK_SEPARATION;
-        loop {
-            match self.round(discs, watch) {
-                Round::Path(cost) if self.is_free(discs, watch) => {
-                    self.route.note_near(discs);
-                    self.found = true;
-                    return Outcome::Found { length: cost };
-                }
-                Round::Path(cost) => {
-                    // The next path is no shorter, and mostly not much longer.
-                    self.limit = cost * (1.0 + HEADROOM);
-                    watch.collided(|out| {
-                        out.clear();
-                        out.push(start);
-                        // A picture needs no more than a part in a thousand.
-                        self.route.write(1e-3, None, 0.0, |p| out.push(p + start.coords));
-                        out.push(self.ends[GOAL]);
-                        out.dedup();
-                    });
-                }
-                Round::NoPath => return Outcome::Infeasible,
-                Round::Stopped => return Outcome::Stopped,
-            }
+        let outcome = self.search_tree(near, watch);
+        if matches!(outcome, Outcome::Found { .. }) {
+            self.route.note_near(&self.terrain, near);
+            self.found = true;
         }
+        outcome
     }
 
-    /// One A*: finds the shortest path among the subset and leaves it in `route`.
-    fn round<D: Discs, W: Watch>(&mut self, discs: &D, watch: &mut W) -> Round {
-        let goal = self.subset.circles[GOAL].centre;
+    fn search_tree<B: BroadPhase, W: Watch>(&mut self, near: &B, watch: &mut W) -> Outcome {
+        let goal = self.terrain.goal();
+        self.covers.reset(self.terrain.len());
+        self.latest.clear();
+        self.latest.resize(2 * self.terrain.len(), 0);
         self.arrivals.clear();
         self.open.clear();
-        self.deferred.clear();
-        self.latest.clear();
-        self.grow();
+        self.limit = goal.coords.norm() * (1.0 + HEADROOM);
+        self.members.clear();
+        self.in_the_way.clear();
+        self.joined.clear();
+        self.joined.resize(self.terrain.obstacles(), false);
+        let mut ask_at = ASK_SEPARATION;
         if !watch.allows() {
-            return Round::Stopped;
+            return Outcome::Stopped;
         }
-        self.arrive(discs, START, START, Vector::zeros(), 0.0, watch);
-        while let Some(Candidate { from, to, exact, .. }) = self.next() {
+        self.arrive(near, circle(START, false), 0, Vector::zeros(), 0.0, watch);
+        while let Some(Candidate { bound, from, way }) = self.open.pop() {
             if !watch.allows() {
-                return Round::Stopped;
+                return Outcome::Stopped;
             }
-            let start_circle = self.arrivals[from].circle;
-            if self.blocked.contains(start_circle, to) {
-                continue;
-            }
+            let (to, measured) = match way {
+                Way::Tangent(to) => (to as usize, false),
+                Way::Measured(to) => (to as usize, true),
+                Way::Farther => {
+                    if bound >= self.limit {
+                        self.raise(bound, watch);
+                    }
+                    self.arrivals[from as usize].pending = false;
+                    self.offer_all(near, from);
+                    continue;
+                }
+            };
             let Some((tangent, cost)) = self.depart(from, to, OrientedCircle::turn) else { continue };
-            let b = self.subset.circles[to].touch(tangent.heading);
-            let bound = cost + (goal - b).norm();
-            if !exact && self.open.peek().is_some_and(|next| next.bound < bound) {
-                self.open.push(Candidate { bound, from, to, exact: true });
+            let b = self.circle(to).touch(tangent.heading);
+            let exact = cost + (goal - b).norm();
+            if !measured && self.open.peek().is_some_and(|next| next.bound < exact) {
+                self.open.push(Candidate { bound: exact, from, way: Way::Measured(to as u32) });
                 continue;
             }
             if self.dominated(to, tangent.heading, cost) {
                 continue;
             }
-            if !self.clear.contains(start_circle, to) {
-                watch.tested();
-                let a = self.subset.circles[start_circle].touch(tangent.heading);
-                if self.subset.blocks(a, b, start_circle, to) {
-                    self.block(start_circle, to);
-                    continue;
-                }
+            watch.tested();
+            let a = self.circle(self.arrivals[from as usize].circle as usize).touch(tangent.heading);
+            if self.is_blocked(near, a, b) {
+                continue;
             }
-            if to == GOAL {
-                let Self { route, arrivals, subset, .. } = self;
-                route.trace(arrivals, subset, from, tangent.heading);
-                route.length = cost;
-                self.last = from;
-                return Round::Path(cost);
+            if to == circle(GOAL, false) {
+                self.trace(from, tangent.heading, cost);
+                return Outcome::Found { length: cost };
             }
-            if self.expanded >= self.ask_at {
-                self.ask_at = usize::MAX;
-                // Overlaps below twice the tolerance are passable for the search.
-                let margin = 4.0 * self.tolerance;
-                match self.separation.separated(discs, Point::origin(), goal, margin, || watch.allows()) {
-                    None => return Round::Stopped,
-                    Some(true) => return Round::NoPath,
+            if self.arrivals.len() >= ask_at {
+                ask_at = usize::MAX;
+                match self.separation.separated(&self.terrain, near, || watch.allows()) {
+                    None => return Outcome::Stopped,
+                    Some(true) => return Outcome::Infeasible,
                     Some(false) => {}
                 }
             }
-            self.arrive(discs, from, to, tangent.heading, cost, watch);
+            self.arrive(near, to, from, tangent.heading, cost, watch);
         }
-        Round::NoPath
+        Outcome::Infeasible
     }
 
-    /// Tests the tangents of the round's path against the whole world. What
-    /// they enter deepest joins the subset.
-    fn is_free<D: Discs, W: Watch>(&mut self, discs: &D, watch: &mut W) -> bool {
-        let mut free = true;
-        let mut to = GOAL;
-        let mut last = self.last;
-        loop {
-            let Arrival { circle: from, parent, .. } = self.arrivals[last];
-            if !self.clear.contains(from, to)
-                && let Some(tangent) =
-                    Bitangent::between(&self.subset.circles[from], &self.subset.circles[to], self.tolerance)
-            {
-                watch.tested();
-                let [a, b] = [from, to].map(|circle| self.subset.circles[circle].touch(tangent.heading));
-                let except = [from, to].map(|circle| self.subset.obstacle_of(circle));
-                if let Some(violated) = self.subset.deepest(discs, a, b, except) {
-                    free = false;
-                    self.block(from, to);
-                    self.join(discs, violated);
-                } else {
-                    self.clear.insert(from, to);
-                    self.clear.insert(reversed(to), reversed(from));
-                }
-            }
-            if from == START {
-                return free;
-            }
-            (to, last) = (from, parent);
-        }
+    /// Lets the search look at paths longer than `bound`.
+    fn raise<W: Watch>(&mut self, bound: f64, watch: &mut W) {
+        let straight = self.terrain.goal().coords.norm();
+        self.limit = straight + GROWTH * (bound - straight);
+        watch.raised(|points, parents| self.write_tree(points, parents));
     }
 
-    /// Records an arrival and offers all ways on.
-    fn arrive<D: Discs, W: Watch>(
+    /// Appends where the arrivals of the last search touch their circles, and their parents' indices.
+    pub(crate) fn write_tree(&self, points: &mut Vec<Point>, parents: &mut Vec<u32>) {
+        points.extend(self.arrivals.iter().map(|a| a.point + self.ends[0].coords));
+        parents.extend(self.arrivals.iter().map(|a| a.parent));
+    }
+
+    fn circle(&self, circle: usize) -> OrientedCircle {
+        oriented(&self.terrain, circle)
+    }
+
+    /// Records an arrival and offers the ways on.
+    fn arrive<B: BroadPhase, W: Watch>(
         &mut self,
-        discs: &D,
-        parent: usize,
-        circle: usize,
+        near: &B,
+        to: usize,
+        parent: u32,
         heading: Vector,
         cost: f64,
         watch: &mut W,
     ) {
         watch.expanded();
-        self.expanded += 1;
-        let reach = self.subset.reach(circle, heading);
-        let index = self.arrivals.len();
-        let older = self.latest[circle].replace(index);
-        let point = self.subset.circles[circle].touch(heading);
-        self.arrivals.push(Arrival { circle, parent, heading, cost, point, reach: reach.angle, older });
-        self.offer(index, GOAL);
-        for member in 0..self.subset.len() {
-            self.offer_member(index, member);
+        let shape = self.circle(to);
+        let reach = if shape.rho == 0.0 {
+            Reach::WHOLE
+        } else {
+            self.covers.reach(&self.terrain, near, to / 2, shape.rho.signum(), heading)
+        };
+        let index = self.arrivals.len() as u32;
+        let older = std::mem::replace(&mut self.latest[to], index + 1);
+        let point = shape.touch(heading);
+        let arrival = Arrival {
+            circle: to as u32,
+            parent,
+            older,
+            heading,
+            cost,
+            point,
+            reach: reach.angle,
+            offered: 0.0,
+            pending: false,
+        };
+        self.arrivals.push(arrival);
+        let straight_on = circle(GOAL, false);
+        if let Some((_, bound)) = self.depart(index, straight_on, OrientedCircle::turn_at_least) {
+            self.open.push(Candidate { bound, from: index, way: Way::Tangent(straight_on as u32) });
         }
-        if let Some(blocker) = reach.blocker {
-            let blocker = self.subset.representative(discs, blocker);
-            if let Some(member) = self.join(discs, blocker) {
-                for arrival in 0..self.arrivals.len() {
-                    self.offer_member(arrival, member);
-                }
-            }
+        self.offer_all(near, index);
+        if let Some(by) = reach.by.filter(|_| self.terrain.is_modest()) {
+            self.join(self.terrain.owner(by as usize));
         }
     }
 
-    /// Adds an obstacle to the subset; returns its number as a member, unless it was one.
-    fn join<D: Discs>(&mut self, discs: &D, obstacle: usize) -> Option<usize> {
-        if self.subset.contains(obstacle) {
-            return None;
+    /// Whether segment `a b` is blocked. Among few obstacles the deepest in its way joins the members.
+    fn is_blocked<B: BroadPhase>(&mut self, near: &B, a: Point, b: Point) -> bool {
+        if !self.terrain.is_modest() {
+            return self.terrain.blocks(near, a, b);
         }
-        let member = self.subset.len();
-        self.subset.add(discs, obstacle);
-        self.grow();
-        Some(member)
-    }
-
-    /// Makes room for the subset's new circles.
-    fn grow(&mut self) {
-        self.latest.resize(self.subset.circles.len(), None);
-        self.blocked.resize(self.subset.circles.len());
-        self.clear.resize(self.subset.circles.len());
-    }
-
-    /// The open candidate of the least bound; looks at what was put off first if that might be less.
-    fn next(&mut self) -> Option<Candidate> {
-        while !self.deferred.is_empty() && self.open.peek().is_none_or(|next| next.bound > self.limit) {
-            let straight = self.subset.circles[GOAL].centre.coords.norm();
-            let least = self.deferred.iter().map(|d| d.bound).fold(f64::INFINITY, f64::min);
-            // Doubling what the limit allows beyond the straight line keeps the number of sweeps logarithmic.
-            self.limit = (straight + 2.0 * (self.limit - straight)).max(least);
-            let mut i = 0;
-            while let Some(&Deferred { bound, from, member }) = self.deferred.get(i) {
-                if bound > self.limit {
-                    i += 1;
-                    continue;
-                }
-                self.deferred.swap_remove(i);
-                for to in Subset::circles_of(member) {
-                    self.offer(from, to);
-                }
-            }
+        if self.terrain.blocked_by(&self.in_the_way, a, b) {
+            return true;
         }
-        self.open.pop()
+        let deepest = self.terrain.deepest(near, a, b);
+        if let Some(obstacle) = deepest {
+            self.join(obstacle);
+        }
+        deepest.is_some()
     }
 
-    /// Offers both tangents from an arrival to a member, or puts them off.
-    fn offer_member(&mut self, from: usize, member: usize) {
-        let arrival = &self.arrivals[from];
-        let bound = arrival.cost + self.subset.via(member, arrival.point);
-        if bound > self.limit {
-            self.deferred.push(Deferred { bound, from, member });
+    /// Makes an obstacle's sites members, and offers them to all arrivals.
+    fn join(&mut self, obstacle: usize) {
+        if std::mem::replace(&mut self.joined[obstacle], true) {
             return;
         }
-        for to in Subset::circles_of(member) {
-            self.offer(from, to);
+        self.in_the_way.push(obstacle as u32);
+        let known = self.members.len();
+        let corners = self.terrain.sites_of(obstacle).filter(|&site| self.terrain.is_corner(site));
+        self.members.extend(corners.map(|site| site as u32));
+        for from in 0..self.arrivals.len() {
+            // What is longer comes with the rest.
+            let limit = self.arrivals[from].offered;
+            self.offer_members(from as u32, known, 0.0, limit);
         }
     }
 
-    /// Puts a candidate in the queue if its tangent exists, may be in reach and is not known to be blocked.
-    fn offer(&mut self, from: usize, to: usize) {
-        let circle = self.arrivals[from].circle;
-        if (circle / 2 == to / 2 && to != GOAL) || self.blocked.contains(circle, to) {
+    /// Offers the tangents of an arrival with bounds up to the limit, but for those offered before.
+    fn offer_all<B: BroadPhase>(&mut self, near: &B, from: u32) {
+        let limit = self.limit;
+        let offered = std::mem::replace(&mut self.arrivals[from as usize].offered, limit);
+        if self.terrain.is_modest() {
+            self.offer_members(from, 0, offered, limit);
             return;
         }
-        if let Some((tangent, cost)) = self.depart(from, to, OrientedCircle::turn_at_least) {
-            let point = self.subset.circles[to].touch(tangent.heading);
-            let bound = cost + (self.subset.circles[GOAL].centre - point).norm();
-            self.open.push(Candidate { bound, from, to, exact: false });
+        let Self { terrain, sweep, open, arrivals, .. } = self;
+        let mut offers = Offers::new(terrain, open, from, &arrivals[from as usize], [offered, limit]);
+        let origin = offers.origin();
+        offers.longer |= sweep.visit(terrain, near, &origin, |sight| offers.add(&sight));
+        if offers.longer {
+            self.put_off(from, limit);
+        }
+    }
+
+    /// The same to all members from number `first` on, with bounds above `offered` and up to `limit`.
+    fn offer_members(&mut self, from: u32, first: usize, offered: f64, limit: f64) {
+        let Self { terrain, members, open, arrivals, .. } = self;
+        let mut offers = Offers::new(terrain, open, from, &arrivals[from as usize], [offered, limit]);
+        for &member in &members[first..] {
+            offers.add_site(member as usize);
+        }
+        if offers.longer {
+            self.put_off(from, limit);
+        }
+    }
+
+    /// Sees to it that an arrival's candidates above `limit` will come up.
+    fn put_off(&mut self, from: u32, limit: f64) {
+        if !std::mem::replace(&mut self.arrivals[from as usize].pending, true) {
+            self.open.push(Candidate { bound: limit, from, way: Way::Farther });
         }
     }
 
@@ -388,67 +446,43 @@ impl Solver {
     /// when there is none or the arc to it, as measured by `turn`, is out of reach.
     fn depart(
         &self,
-        from: usize,
+        from: u32,
         to: usize,
         turn: impl Fn(&OrientedCircle, Vector, Vector) -> f64,
     ) -> Option<(Bitangent, f64)> {
-        let Self { subset, tolerance, .. } = self;
-        let arrival = &self.arrivals[from];
-        let circle = &subset.circles[arrival.circle];
-        let tangent = Bitangent::between(circle, &subset.circles[to], *tolerance)?;
-        let turn = turn(circle, arrival.heading, tangent.heading);
+        let arrival = &self.arrivals[from as usize];
+        let circle = self.circle(arrival.circle as usize);
+        let tangent = Bitangent::between(&circle, &self.circle(to), self.terrain.tolerance())?;
+        let turn = turn(&circle, arrival.heading, tangent.heading);
         (turn <= arrival.reach).then(|| (tangent, arrival.cost + turn * circle.rho.abs() + tangent.length))
-    }
-
-    /// Remembers that the tangent between two circles is blocked, either way.
-    fn block(&mut self, from: usize, to: usize) {
-        self.blocked.insert(from, to);
-        self.blocked.insert(reversed(to), reversed(from));
     }
 
     /// Whether an older arrival on the same circle gets to this one at no greater cost.
     fn dominated(&self, circle: usize, heading: Vector, cost: f64) -> bool {
-        let shape = &self.subset.circles[circle];
+        let shape = self.circle(circle);
         let mut next = self.latest[circle];
-        while let Some(index) = next {
-            let older = &self.arrivals[index];
+        while next > 0 {
+            let older = &self.arrivals[next as usize - 1];
             let turn = shape.turn(older.heading, heading);
             // A tenth of the tolerance, so that chains of tangents without length cannot go round for ever.
-            if turn <= older.reach && older.cost + turn * shape.rho.abs() <= cost + 0.1 * self.tolerance {
+            if turn <= older.reach && older.cost + turn * shape.rho.abs() <= cost + 0.1 * self.terrain.tolerance() {
                 return true;
             }
             next = older.older;
         }
         false
     }
-}
 
-/// How a round ended.
-enum Round {
-    /// The shortest path among the subset is in `Solver::route`; its length.
-    Path(f64),
-    /// There is none: the subset, or the whole, separates start from goal.
-    NoPath,
-    /// The caller stopped it.
-    Stopped,
-}
-
-/// The same disc passed the other way round.
-fn reversed(circle: usize) -> usize {
-    if circle <= GOAL { circle } else { circle ^ 1 }
-}
-
-impl Route {
-    /// Makes this the path to arrival `last` that leaves its circle with `heading`.
-    fn trace(&mut self, arrivals: &[Arrival], subset: &Subset, last: usize, heading: Vector) {
-        self.clear();
+    /// Makes the route the path to arrival `last` that leaves its circle with `heading` for the goal.
+    fn trace(&mut self, last: u32, heading: Vector, length: f64) {
+        self.route.length = length;
         let (mut at, mut leaving) = (last, heading);
-        while arrivals[at].circle != START {
-            let Arrival { circle, heading, parent, .. } = arrivals[at];
-            let circle = subset.circles[circle];
-            self.push(circle, heading, circle.turn(heading, leaving));
+        while at > 0 {
+            let Arrival { circle, heading, parent, .. } = self.arrivals[at as usize];
+            let circle = self.circle(circle as usize);
+            self.route.push(circle, heading, circle.turn(heading, leaving));
             (at, leaving) = (parent, heading);
         }
-        self.arcs.reverse();
+        self.route.arcs.reverse();
     }
 }

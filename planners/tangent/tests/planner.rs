@@ -59,15 +59,28 @@ fn shapes_out_of_the_way_do_not_matter() {
 }
 
 #[test]
-fn shapes_in_the_way_leave_no_optimum_and_a_lower_bound() {
-    let (plan, status, best) = solve(&with(scene(&[[5.0, 0.1]]), square(8.0, -0.5)), &mut Run::new(1));
-    assert_eq!(status, Status::NotFound);
-    assert!(plan.cost > 10.0 && plan.cost < 10.3 && !plan.path.is_empty());
-    let reason = best.unwrap_err();
-    assert_eq!(reason.to_string(), "obstacle 1 is a polygon; only discs are supported so far");
-    let capsule = Shape::Capsule { from: [5.0, -1.0], to: [5.0, 1.0], radius: 0.5 };
-    let (_, status, best) = solve(&with(scene(&[]), capsule), &mut Run::new(1));
-    assert_eq!((status, best), (Status::NotFound, Err(NoOptimum::OtherShape { obstacle: 0, shape: "capsule" })));
+fn shapes_in_the_way_are_gone_round() {
+    // A point robot over the corners (4, 1) and (6, 1) of a block: two legs and a side. The planner's polygon
+    // gives way by a part of ε = 1e-8.
+    let block = Shape::Polygon(vec![[4.0, -3.0], [6.0, -3.0], [6.0, 1.0], [4.0, 1.0]]);
+    let (plan, status, best) = solve(&with(scene(&[]), block.clone()), &mut Run::new(1));
+    let expected = 2.0 * 17.0_f64.sqrt() + 2.0;
+    assert_eq!(status, Status::Solved);
+    assert!((plan.cost - expected).abs() < 2e-8, "{}", plan.cost);
+    assert!(best.unwrap() <= plan.cost);
+    // A robot of radius 1/2: corners become arcs. Tangent from (0, 0) to the circle at (4, 1).
+    let mut robot = with(scene(&[]), block);
+    robot.robot_radius = 0.5;
+    let leg = (17.0_f64 - 0.25).sqrt();
+    let rise = (1.0_f64 / 4.0).atan() + (0.5 / 17.0_f64.sqrt()).asin();
+    let (plan, _, best) = solve(&robot, &mut Run::new(1));
+    assert!((plan.cost - (2.0 * leg + 2.0 + 2.0 * 0.5 * rise)).abs() < 2e-8, "{}", plan.cost);
+    assert!(best.unwrap() <= plan.cost);
+    // Over a capsule whose axis is on the line: tangents of √15 that rise by asin(1/4).
+    let capsule = Shape::Capsule { from: [4.0, 0.0], to: [6.0, 0.0], radius: 1.0 };
+    let (plan, _, _) = solve(&with(scene(&[]), capsule), &mut Run::new(1));
+    let expected = 2.0 * 15.0_f64.sqrt() + 2.0 + 2.0 * (0.25_f64).asin();
+    assert!((plan.cost - expected).abs() < 2e-8, "{}", plan.cost);
     // A capsule without length is a disc.
     let dot = Shape::Capsule { from: [5.0, 0.1], to: [5.0, 0.1], radius: 1.0 };
     let (dotted, status, best) = solve(&with(scene(&[]), dot), &mut Run::new(1));
@@ -76,19 +89,23 @@ fn shapes_in_the_way_leave_no_optimum_and_a_lower_bound() {
 }
 
 #[test]
-fn a_path_outside_the_field_is_no_optimum() {
+fn the_field_decides_the_side() {
     let mut scene = scene(&[[5.0, 0.1]]);
     let field = |low: f64| Some(Field { min: [-1.0, low], max: [11.0, 5.0] });
-    // The arc's lowest point is at −0.9; its ends are higher.
+    // The arc's lowest point is at −0.9; above it is longer.
     scene.field = field(-0.900_001);
-    let (_, status, best) = solve(&scene, &mut Run::new(1));
+    let (below, status, best) = solve(&scene, &mut Run::new(1));
     assert_eq!((status, best.is_ok()), (Status::Solved, true));
+    assert!(below.path.iter().any(|p| p.y < -0.8));
     scene.field = field(-0.899_9);
-    let (plan, status, best) = solve(&scene, &mut Run::new(1));
-    assert_eq!((status, plan.path.is_empty()), (Status::NotFound, false));
-    let Err(NoOptimum::LeavesField { depth }) = best else { panic!("{best:?}") };
-    // ε = 1.3e-8 less on the radius.
-    assert!((depth - 1e-4).abs() < 2e-8, "{depth}");
+    let (above, status, best) = solve(&scene, &mut Run::new(1));
+    assert_eq!(status, Status::Solved);
+    assert!(above.path.iter().all(|p| p.y > -0.01) && above.cost > below.cost);
+    assert!(best.unwrap() <= above.cost);
+    // Another disc between the first and the upper border: closed.
+    scene.obstacles.push(Obstacle::disc(Point::new(5.0, 3.0), 2.1));
+    let (_, status, best) = solve(&scene, &mut Run::new(1));
+    assert_eq!((status, best), (Status::Infeasible, Err(NoOptimum::Infeasible)));
 }
 
 #[test]
@@ -192,30 +209,33 @@ struct Film {
 
 impl Observer for Film {
     fn frame(&mut self, frame: &Frame<'_>) -> ControlFlow<()> {
-        let View::Path(path) = frame.view else { panic!("{frame:?}") };
+        let View::Trees([tree]) = frame.view else { panic!("{frame:?}") };
         assert_eq!(frame.stage, "tangent");
-        self.frames.push((frame.iteration, frame.best_cost, path.to_vec()));
+        assert_eq!(tree.nodes.len(), tree.parents.len());
+        assert!(tree.parents.iter().enumerate().all(|(i, &parent)| (parent as usize) < i.max(1)));
+        self.frames.push((frame.iteration, frame.best_cost, tree.nodes.to_vec()));
         if self.stop_after == Some(self.frames.len()) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 }
 
 #[test]
-fn frames_show_the_path_as_it_bends_to_the_optimum() {
+fn frames_show_the_tree_as_it_grows() {
     let scene = forest();
     let mut film = Film::default();
     let (plan, _, _) = solve(&scene, &mut Run::new(1).with_observer(&mut film));
     let frames = &film.frames;
     assert_eq!(frames.len() as u64, plan.counters.iterations + 1);
-    for (i, (iteration, cost, path)) in frames.iter().enumerate() {
+    for (i, (iteration, cost, nodes)) in frames.iter().enumerate() {
         assert_eq!(*iteration, i as u64);
-        assert_eq!((path[0], *path.last().unwrap()), (scene.start(), scene.goal()));
+        assert_eq!(nodes[0], scene.start());
+        assert!(i == 0 || nodes.starts_with(&frames[i - 1].2));
         assert_eq!(cost.is_finite(), i + 1 == frames.len());
     }
-    assert_eq!(frames.last().unwrap().2, plan.path);
+    assert_eq!(frames.last().unwrap().2.len() as u64, plan.counters.evaluations);
 
-    let mut film = Film { stop_after: Some(3), ..Film::default() };
+    let mut film = Film { stop_after: Some(2), ..Film::default() };
     let (plan, status, _) = solve(&scene, &mut Run::new(1).with_observer(&mut film));
-    assert_eq!((status, film.frames.len(), plan.path.len()), (Status::BudgetSpent, 3, 0));
+    assert_eq!((status, film.frames.len(), plan.path.len()), (Status::BudgetSpent, 2, 0));
 }
 
 #[test]

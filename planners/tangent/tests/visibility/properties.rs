@@ -1,0 +1,174 @@
+//! What must hold between the optima of related scenes, and between optimum and planner.
+
+use env_model::{Scene, Shape, path_length};
+use planner_api::{Planner, Problem, Run, Status};
+use planner_tangent::{Settings, Tangent};
+
+use crate::families::FAMILIES;
+use crate::{EVERY_SHAPE, solve, with_problem};
+
+/// How much obstacles shrunk by up to ε can shorten a path, in ε: the sharpest
+/// tips (0.1 rad) retreat by 20 ε, which two segments each save; a path meets few.
+const SAVED: f64 = 300.0;
+
+/// Calls `check` with every scene, its problem and the length of its optimum,
+/// `None` when infeasible. Passes over scenes that are not supported yet.
+fn everywhere(mut check: impl FnMut(&Scene, &Problem<'_>, Option<f64>)) {
+    let (mut scenes, mut supported) = (0, 0);
+    for family in FAMILIES {
+        for scene in family.scenes() {
+            scenes += 1;
+            with_problem(&scene, |problem| {
+                if let Some(best) = solve(problem) {
+                    supported += 1;
+                    check(&scene, problem, best.map(|b| b.length));
+                }
+            });
+        }
+    }
+    assert!(supported >= 200 && (supported == scenes || !EVERY_SHAPE), "{supported} of {scenes}");
+}
+
+/// The optimum of `other` is `a` too, or there is none either.
+///
+/// 1e-9 relative: the lengths differ by rounding only, but a path that leaves an
+/// obstacle where it nearly touches another reacts to the square root of that.
+fn assert_same(a: Option<f64>, other: &Problem<'_>, scene: &Scene) {
+    let Some(b) = solve(other) else { return };
+    let b = b.map(|best| best.length);
+    let same = match (a, b) {
+        (Some(a), Some(b)) => (a / b - 1.0).abs() <= 1e-9,
+        (a, b) => a == b,
+    };
+    assert!(same, "{}: {a:?} and {b:?}\n{}", scene.name, scene.to_toml());
+}
+
+#[test]
+fn backwards_it_is_as_long() {
+    everywhere(|scene, problem, forth| {
+        let back = Problem::new(problem.world, problem.goal, problem.start).unwrap();
+        assert_same(forth, &back, scene);
+    });
+}
+
+#[test]
+fn in_the_mirror_it_is_as_long() {
+    everywhere(|scene, _, seen| {
+        let mut mirrored = scene.clone();
+        let flip = |p: &mut [f64; 2]| p[0] = -p[0];
+        flip(&mut mirrored.start);
+        flip(&mut mirrored.goal);
+        if let Some(field) = &mut mirrored.field {
+            (field.min[0], field.max[0]) = (-field.max[0], -field.min[0]);
+        }
+        for obstacle in &mut mirrored.obstacles {
+            match &mut obstacle.shape {
+                Shape::Disc { centre, .. } => flip(centre),
+                Shape::Capsule { from, to, .. } => {
+                    flip(from);
+                    flip(to);
+                }
+                Shape::Polygon(corners) => corners.iter_mut().for_each(flip),
+            }
+        }
+        with_problem(&mirrored, |problem| assert_same(seen, problem, scene));
+    });
+}
+
+#[test]
+fn the_same_obstacles_told_otherwise_change_nothing() {
+    everywhere(|scene, _, told| {
+        let mut other = scene.clone();
+        other.obstacles.reverse();
+        other.obstacles.extend(scene.obstacles.first().cloned());
+        for obstacle in &mut other.obstacles {
+            match &mut obstacle.shape {
+                Shape::Disc { .. } => {}
+                Shape::Capsule { from, to, .. } => std::mem::swap(from, to),
+                // The other winding, from another corner on.
+                Shape::Polygon(corners) => {
+                    corners.reverse();
+                    corners.rotate_left(1);
+                }
+            }
+        }
+        with_problem(&other, |problem| assert_same(told, problem, scene));
+    });
+}
+
+#[test]
+fn corners_in_the_middle_of_sides_change_nothing() {
+    everywhere(|scene, _, plain| {
+        let mut other = scene.clone();
+        for obstacle in &mut other.obstacles {
+            if let Shape::Polygon(corners) = &mut obstacle.shape {
+                let n = corners.len();
+                let side = |i: usize| (corners[i], corners[(i + 1) % n]);
+                let halves = (0..n).map(side).flat_map(|(a, b)| [a, [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]]);
+                *corners = halves.collect();
+            }
+        }
+        with_problem(&other, |problem| assert_same(plain, problem, scene));
+    });
+}
+
+#[test]
+fn an_obstacle_less_never_lengthens() {
+    everywhere(|scene, _, all| {
+        for skip in 0..scene.obstacles.len().min(4) {
+            let mut fewer = scene.clone();
+            fewer.obstacles.remove(skip);
+            with_problem(&fewer, |problem| {
+                let Some(fewer) = solve(problem) else { return };
+                // ε goes with the box round the scene: the others may shrink less now.
+                let slack = SAVED * scene.epsilon();
+                let sound = all.is_none_or(|all| fewer.as_ref().is_some_and(|fewer| fewer.length <= all + slack));
+                let fewer = fewer.map(|fewer| fewer.length);
+                assert!(sound, "{}: {fewer:?} without {skip}, {all:?} with it\n{}", scene.name, scene.to_toml());
+            });
+        }
+    });
+}
+
+#[test]
+fn the_planner_finds_the_optimum_or_proves_that_there_is_none() {
+    let mut planner = Tangent::new(Settings::default()).unwrap();
+    everywhere(|scene, problem, best| {
+        let (plan, status) = planner.plan(problem, &mut Run::new(1)).unwrap();
+        let text = || format!("{}: {status:?}, optimum {best:?}\n{}", scene.name, scene.to_toml());
+        let Some(best) = best else {
+            assert_eq!(status, Status::Infeasible, "{}", text());
+            assert!(plan.path.is_empty(), "{}", text());
+            return;
+        };
+        assert_eq!(status, Status::Solved, "{}", text());
+        assert_eq!((plan.path[0], plan.path[plan.path.len() - 1]), (problem.start, problem.goal), "{}", text());
+        assert!(problem.world.path_free(&plan.path), "{}", text());
+        let length = path_length(&plan.path);
+        // Not under it but for the rounding of the sum; over it by a millionth for
+        // the polyline, and by what the optimum's shrunken obstacles save.
+        let over = 1.001e-6 * best + SAVED * scene.epsilon();
+        assert!(length >= best * (1.0 - 1e-12) && length <= best + over, "{length}: {}", text());
+    });
+}
+
+/// Among so many obstacles neighbours are found by sweeps, among few by what has been in the way.
+#[test]
+fn a_crowd_within_a_disc_changes_nothing() {
+    let mut crowded = 0;
+    everywhere(|scene, _, alone| {
+        let disc = scene.obstacles.iter().find_map(|o| match o.shape {
+            Shape::Disc { centre, radius } => Some((centre, radius)),
+            _ => None,
+        });
+        let Some((centre, radius)) = disc else { return };
+        let mut other = scene.clone();
+        for i in 0..600 {
+            let at = [centre[0] + radius * 1e-3 * f64::from(i % 20), centre[1] + radius * 1e-3 * f64::from(i / 20)];
+            other.obstacles.push(Shape::Disc { centre: at, radius: 1e-2 * radius }.into());
+        }
+        with_problem(&other, |problem| assert_same(alone, problem, scene));
+        crowded += 1;
+    });
+    assert!(crowded >= 200, "{crowded}");
+}
