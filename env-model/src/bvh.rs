@@ -51,16 +51,7 @@ impl Bvh {
     /// Calls `visit` for every item whose box the segment `a b` may touch, until it returns `true`.
     /// Returns whether it did.
     pub fn any_along(&self, a: Point, b: Point, mut visit: impl FnMut(usize) -> bool) -> bool {
-        let d = b - a;
-        let reach = Aabb::of_points([&a, &b]);
-        self.any(
-            |aabb| {
-                let c = aabb.centre();
-                let h = aabb.max - c;
-                reach.overlaps(aabb) && cross(d, c - a).abs() <= h.x * d.y.abs() + h.y * d.x.abs()
-            },
-            &mut visit,
-        )
+        self.any(touching(a, b), &mut visit)
     }
 
     /// Calls `visit` for every item whose box overlaps `region`, until it returns `true`.
@@ -126,6 +117,17 @@ impl Bvh {
             }
         }
         best
+    }
+}
+
+/// Whether the segment `a b` may touch a box: neither a side of either box nor the segment's line parts them.
+pub fn touching(a: Point, b: Point) -> impl Fn(&Aabb) -> bool {
+    let d = b - a;
+    let reach = Aabb::of_points([&a, &b]);
+    move |aabb| {
+        let c = aabb.centre();
+        let h = aabb.max - c;
+        reach.overlaps(aabb) && cross(d, c - a).abs() <= h.x * d.y.abs() + h.y * d.x.abs()
     }
 }
 

@@ -35,6 +35,7 @@ pub struct Few {
     /// The bits of obstacles that are no discs.
     others: u64,
     discs: [Disc; Slabs::MOST],
+    boxes: Vec<Aabb>,
 }
 
 impl Near {
@@ -68,11 +69,8 @@ impl Near {
 
 impl Few {
     fn new(obstacles: &[Inflated], boxes: &[Aabb], tree: &Bvh, slack: f64) -> Self {
-        let mut few = Self {
-            slabs: Slabs::new(tree.items().iter().map(|&i| boxes[i as usize])),
-            others: 0,
-            discs: [Disc::NONE; Slabs::MOST],
-        };
+        let boxes: Vec<Aabb> = tree.items().iter().map(|&i| boxes[i as usize]).collect();
+        let mut few = Self { slabs: Slabs::new(&boxes), others: 0, discs: [Disc::NONE; Slabs::MOST], boxes };
         for (bit, &i) in tree.items().iter().enumerate() {
             match obstacles[i as usize].as_disc() {
                 Some((centre, radius)) => few.discs[bit] = Disc::new(centre, radius - slack),
@@ -93,6 +91,11 @@ impl Few {
     pub fn any_entered(&self, near: u64, a: Point, b: Point, other: impl FnMut(usize) -> bool) -> bool {
         let probe = Probe::new(a, b);
         bits(near & !self.others).any(|k| probe.enters(&self.discs[k])) || bits(near & self.others).any(other)
+    }
+
+    /// Calls `visit` for every item whose box, which may meet `region`, `touches`.
+    pub fn for_each(&self, region: &Aabb, touches: impl Fn(&Aabb) -> bool, visit: impl FnMut(usize)) {
+        bits(self.meeting(region)).filter(|&k| touches(&self.boxes[k])).for_each(visit);
     }
 }
 

@@ -64,10 +64,10 @@ impl Slabs {
     pub const MOST: usize = u64::BITS as usize;
 
     /// Box i of `boxes`, at most [`Slabs::MOST`], becomes bit i.
-    pub fn new(boxes: impl Iterator<Item = Aabb> + Clone) -> Self {
+    pub fn new(boxes: &[Aabb]) -> Self {
         Self {
-            x: Axis::new(boxes.clone().map(|b| (b.min.x, b.max.x))),
-            y: Axis::new(boxes.map(|b| (b.min.y, b.max.y))),
+            x: Axis::new(boxes.iter().map(|b| (b.min.x, b.max.x))),
+            y: Axis::new(boxes.iter().map(|b| (b.min.y, b.max.y))),
         }
     }
 

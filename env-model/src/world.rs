@@ -1,6 +1,6 @@
 //! A scene compiled for its robot: exact continuous collision behind a broad phase.
 
-use crate::bvh::Bvh;
+use crate::bvh::{Bvh, touching};
 use crate::near::{Few, Near};
 use crate::{Aabb, Inflated, Point, Scene, SceneError};
 
@@ -170,18 +170,27 @@ impl World {
 
     /// Calls `visit` with the index of every obstacle whose box overlaps `region`.
     pub fn for_each_overlapping(&self, region: &Aabb, mut visit: impl FnMut(usize)) {
-        self.bvh.any_overlapping(region, |i| {
-            visit(i);
-            false
-        });
+        if let Near::Few(few) = &self.near {
+            few.for_each(region, |aabb| region.overlaps(aabb), |k| visit(self.bvh.items()[k] as usize));
+        } else {
+            self.bvh.any_overlapping(region, |i| {
+                visit(i);
+                false
+            });
+        }
     }
 
     /// Calls `visit` with the index of every obstacle whose box the segment `a b` may touch.
     pub fn for_each_along(&self, a: Point, b: Point, mut visit: impl FnMut(usize)) {
-        self.bvh.any_along(a, b, |i| {
-            visit(i);
-            false
-        });
+        if let Near::Few(few) = &self.near {
+            let region = Aabb::of_points([&a, &b]);
+            few.for_each(&region, touching(a, b), |k| visit(self.bvh.items()[k] as usize));
+        } else {
+            self.bvh.any_along(a, b, |i| {
+                visit(i);
+                false
+            });
+        }
     }
 
     /// Where `path` first goes deeper than ε into an obstacle or over the border; `None` for a valid path.
