@@ -44,7 +44,7 @@ impl Near {
         if obstacles.len() <= Slabs::MOST {
             return Self::Few(Box::new(Few::new(obstacles, boxes, tree, slack)));
         }
-        let mut radii: Vec<f64> = obstacles.iter().filter_map(|o| o.as_disc()).map(|(_, r)| r).collect();
+        let mut radii: Vec<f64> = obstacles.iter().filter_map(Inflated::as_disc).map(|(_, r)| r).collect();
         if radii.len() <= Slabs::MOST {
             return Self::Tree;
         }
