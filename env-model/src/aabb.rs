@@ -21,6 +21,18 @@ impl Aabb {
         points.into_iter().fold(Self::EMPTY, |b, p| b.including(*p))
     }
 
+    /// The smallest box round the segment `a b`, finite.
+    #[inline]
+    pub(crate) fn of_segment(a: Point, b: Point) -> Self {
+        // f64::min and max take three instructions each, because they look for NaN.
+        let lesser = |u: f64, v: f64| if u < v { u } else { v };
+        let greater = |u: f64, v: f64| if u > v { u } else { v };
+        Self {
+            min: Point::new(lesser(a.x, b.x), lesser(a.y, b.y)),
+            max: Point::new(greater(a.x, b.x), greater(a.y, b.y)),
+        }
+    }
+
     /// The smallest box that holds this one and `p`.
     #[must_use]
     pub fn including(self, p: Point) -> Self {

@@ -29,27 +29,29 @@ pub struct Bvh {
 impl Bvh {
     /// Builds the hierarchy, O(n log² n).
     pub fn build(boxes: &[Aabb]) -> Self {
-        let mut items: Vec<u32> = (0..u32::try_from(boxes.len()).expect("fewer than 2³² boxes")).collect();
-        let mut nodes = Vec::new();
-        if !boxes.is_empty() {
-            split(boxes, &mut items, 0, &mut nodes);
+        Self::over(boxes, (0..u32::try_from(boxes.len()).expect("fewer than 2³² boxes")).collect())
+    }
+
+    /// Builds the hierarchy over some of `boxes`.
+    pub fn over(boxes: &[Aabb], items: Vec<u32>) -> Self {
+        let mut nodes = Vec::with_capacity(items.len());
+        let mut seeds: Vec<Seed> =
+            items.into_iter().map(|item| Seed { centre: boxes[item as usize].centre(), item }).collect();
+        if !seeds.is_empty() {
+            split(boxes, &mut seeds, 0, &mut nodes);
         }
-        Self { nodes, items }
+        Self { nodes, items: seeds.into_iter().map(|seed| seed.item).collect() }
+    }
+
+    /// The items in the order in which they are visited.
+    pub fn items(&self) -> &[u32] {
+        &self.items
     }
 
     /// Calls `visit` for every item whose box the segment `a b` may touch, until it returns `true`.
     /// Returns whether it did.
     pub fn any_along(&self, a: Point, b: Point, mut visit: impl FnMut(usize) -> bool) -> bool {
-        let d = b - a;
-        let reach = Aabb::of_points([&a, &b]);
-        self.any(
-            |aabb| {
-                let c = aabb.centre();
-                let h = aabb.max - c;
-                reach.overlaps(aabb) && cross(d, c - a).abs() <= h.x * d.y.abs() + h.y * d.x.abs()
-            },
-            &mut visit,
-        )
+        self.any(touching(a, b), &mut visit)
     }
 
     /// Calls `visit` for every item whose box overlaps `region`, until it returns `true`.
@@ -118,22 +120,39 @@ impl Bvh {
     }
 }
 
-fn split(boxes: &[Aabb], items: &mut [u32], offset: u32, nodes: &mut Vec<Node>) {
-    let aabb = items.iter().fold(Aabb::EMPTY, |b, &i| b.union(boxes[i as usize]));
-    let at = nodes.len();
-    if items.len() <= LEAF {
-        nodes.push(Node { aabb, first: offset, count: items.len() as u32 });
-        return;
+/// Whether the segment `a b` may touch a box: neither a side of either box nor the segment's line parts them.
+pub fn touching(a: Point, b: Point) -> impl Fn(&Aabb) -> bool {
+    let d = b - a;
+    let reach = Aabb::of_points([&a, &b]);
+    move |aabb| {
+        let c = aabb.centre();
+        let h = aabb.max - c;
+        reach.overlaps(aabb) && cross(d, c - a).abs() <= h.x * d.y.abs() + h.y * d.x.abs()
     }
-    nodes.push(Node { aabb, first: 0, count: 0 });
-    let spread = Aabb::of_points(&items.iter().map(|&i| boxes[i as usize].centre()).collect::<Vec<_>>()).size();
+}
+
+/// An item while the tree is built, beside what it is sorted by.
+struct Seed {
+    centre: Point,
+    item: u32,
+}
+
+fn split(boxes: &[Aabb], seeds: &mut [Seed], offset: u32, nodes: &mut Vec<Node>) -> Aabb {
+    let at = nodes.len();
+    if seeds.len() <= LEAF {
+        let aabb = seeds.iter().fold(Aabb::EMPTY, |b, seed| b.union(boxes[seed.item as usize]));
+        nodes.push(Node { aabb, first: offset, count: seeds.len() as u32 });
+        return aabb;
+    }
+    nodes.push(Node { aabb: Aabb::EMPTY, first: 0, count: 0 });
+    let spread = Aabb::of_points(seeds.iter().map(|seed| &seed.centre)).size();
     let axis = usize::from(spread.y > spread.x);
-    let key = |i: &u32| boxes[*i as usize].centre()[axis];
-    let middle = items.len() / 2;
+    let middle = seeds.len() / 2;
     // The index breaks ties, so the tree depends on nothing but its input.
-    items.select_nth_unstable_by(middle, |i, j| key(i).total_cmp(&key(j)).then(i.cmp(j)));
-    let (left, right) = items.split_at_mut(middle);
-    split(boxes, left, offset, nodes);
+    seeds.select_nth_unstable_by(middle, |s, t| s.centre[axis].total_cmp(&t.centre[axis]).then(s.item.cmp(&t.item)));
+    let (left, right) = seeds.split_at_mut(middle);
+    let lower = split(boxes, left, offset, nodes);
     nodes[at].first = nodes.len() as u32;
-    split(boxes, right, offset + middle as u32, nodes);
+    nodes[at].aabb = lower.union(split(boxes, right, offset + middle as u32, nodes));
+    nodes[at].aabb
 }

@@ -76,12 +76,29 @@ pub fn segment_segment_distance(a: Point, b: Point, c: Point, d: Point) -> f64 {
         .sqrt()
 }
 
-/// Whether the segments `a b` and `c d` come nearer to each other than `reach`.
+/// Whether the segments `a b` and `c d` come nearer to each other than `reach`. No root, no division.
 ///
-/// Most pairs are far apart, which their coordinates alone tell.
+/// Most pairs are far apart, which their coordinates alone tell, or one segment lies
+/// beyond the other's line.
 pub fn segments_nearer_than(reach: f64, a: Point, b: Point, c: Point, d: Point) -> bool {
     let apart = |a: f64, b: f64, c: f64, d: f64| c.min(d) - a.max(b) >= reach || a.min(b) - c.max(d) >= reach;
-    !(apart(a.x, b.x, c.x, d.x) || apart(a.y, b.y, c.y, d.y)) && segment_segment_distance(a, b, c, d) < reach
+    if apart(a.x, b.x, c.x, d.x) || apart(a.y, b.y, c.y, d.y) {
+        return false;
+    }
+    let r2 = reach * reach;
+    // Whether p and q are on one side of the line through o and o + u, and at least `reach` from it.
+    let beyond = |o: Point, u: Vector, p: Point, q: Point| {
+        let (s, t) = (cross(u, p - o), cross(u, q - o));
+        s * t > 0.0 && (s * s).min(t * t) >= r2 * u.norm_squared()
+    };
+    if beyond(c, d - c, a, b) || beyond(a, b - a, c, d) {
+        return false;
+    }
+    segments_cross(a, b, c, d)
+        || point_segment_distance_squared(a, c, d) < r2
+        || point_segment_distance_squared(b, c, d) < r2
+        || point_segment_distance_squared(c, a, b) < r2
+        || point_segment_distance_squared(d, a, b) < r2
 }
 
 #[cfg(test)]

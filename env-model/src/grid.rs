@@ -100,6 +100,10 @@ impl CellGrid {
     /// A cell's square.
     pub fn square(&self, cell: usize) -> Aabb {
         let (column, row) = self.position(cell);
+        self.square_in(column, row)
+    }
+
+    fn square_in(&self, column: usize, row: usize) -> Aabb {
         let corner = |c: usize, r: usize| self.origin + Vector::new(c as f64 * self.size, r as f64 * self.size);
         Aabb { min: corner(column, row), max: corner(column + 1, row + 1) }
     }
@@ -170,9 +174,14 @@ impl CellGrid {
         blocked.clear();
         blocked.resize(self.len(), false);
         if let Some(field) = world.inner_field() {
+            let inside = |axis: usize, index: usize| {
+                let middle = self.origin[axis] + (index as f64 + 0.5) * self.size;
+                (middle - field.min[axis] >= -world.slack()) & (field.max[axis] - middle >= -world.slack())
+            };
             for (row, cells) in blocked.chunks_exact_mut(self.columns).enumerate() {
+                let row_inside = inside(1, row);
                 for (column, blocked) in cells.iter_mut().enumerate() {
-                    *blocked = field.depth_of(self.middle((column, row))) < -world.slack();
+                    *blocked = !(row_inside & inside(0, column));
                 }
             }
         }
@@ -186,12 +195,10 @@ impl CellGrid {
             let ((left, low), (right, high)) =
                 (self.position(self.cell_at(near.min)), self.position(self.cell_at(near.max)));
             for row in low..=high {
-                for column in left..=right {
-                    let cell = self.cell(column, row);
-                    if !blocked[cell] {
-                        tests += 1;
-                        blocked[cell] = touches(obstacle, &self.square(cell), world.slack());
-                    }
+                let cells = &mut blocked[row * self.columns..][left..=right];
+                tests += cells.iter().map(|blocked| u64::from(!*blocked)).sum::<u64>();
+                for (column, blocked) in (left..).zip(cells) {
+                    *blocked = *blocked || touches(obstacle, &self.square_in(column, row), world.slack());
                 }
             }
         }

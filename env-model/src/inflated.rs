@@ -90,9 +90,7 @@ impl Inflated {
         match &self.core {
             Core::Point(c) => reach <= 0.0 || point_segment_distance_squared(*c, a, b) >= reach * reach,
             Core::Segment(c, e) => reach <= 0.0 || !segments_nearer_than(reach, a, b, *c, *e),
-            Core::Polygon(polygon) if reach > 0.0 => {
-                polygon.sides().all(|(c, e)| !segments_nearer_than(reach, a, b, c, e)) && !polygon.contains(a)
-            }
+            Core::Polygon(polygon) if reach > 0.0 => !polygon.nearer_than(a, b, reach),
             Core::Polygon(polygon) => !polygon.enters_deeper_than(a, b, -reach),
         }
     }

@@ -22,8 +22,12 @@ pub mod scene;
 pub mod source;
 pub mod world;
 
+mod buckets;
+mod near;
 mod polygon;
+mod probe;
 mod scene_file;
+mod slabs;
 
 pub use aabb::Aabb;
 pub use frame::{Columns, LocalFrame};

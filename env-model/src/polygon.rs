@@ -1,7 +1,7 @@
 //! Simple polygons, not necessarily convex.
 
 use crate::geometry::{
-    cross, point_segment_distance, point_segment_distance_squared, segment_segment_distance, segments_cross,
+    cross, point_segment_distance_squared, segment_segment_distance, segments_cross, segments_nearer_than,
 };
 use crate::{Aabb, Point, Vector};
 
@@ -23,6 +23,9 @@ pub enum PolygonError {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Polygon {
     corners: Vec<Point>,
+    /// Kept because every collision test asks for it first.
+    aabb: Aabb,
+    convex: bool,
 }
 
 impl Polygon {
@@ -59,7 +62,19 @@ impl Polygon {
         if doubled_area < 0.0 {
             corners.reverse();
         }
-        Ok(Self { corners })
+        Ok(Self::of(corners))
+    }
+
+    /// `corners` of a simple polygon, counter-clockwise.
+    fn of(corners: Vec<Point>) -> Self {
+        let n = corners.len();
+        let turn = |i: usize| {
+            let (p, q, r) = (corners[i], corners[(i + 1) % n], corners[(i + 2) % n]);
+            cross(q - p, r - q)
+        };
+        // A simple polygon whose turns are all to the left winds once.
+        let convex = (0..n).all(|i| turn(i) >= 0.0);
+        Self { aabb: Aabb::of_points(&corners), convex, corners }
     }
 
     /// The corners, counter-clockwise.
@@ -73,14 +88,15 @@ impl Polygon {
         (0..n).map(move |i| (self.corners[i], self.corners[(i + 1) % n]))
     }
 
-    fn aabb(&self) -> Aabb {
-        Aabb::of_points(&self.corners)
+    /// The smallest box round the polygon.
+    pub fn aabb(&self) -> &Aabb {
+        &self.aabb
     }
 
     /// The polygon with every corner mapped by a rigid motion.
     #[must_use]
     pub fn mapped(&self, map: impl FnMut(Point) -> Point) -> Self {
-        Self { corners: self.corners.iter().copied().map(map).collect() }
+        Self::of(self.corners.iter().copied().map(map).collect())
     }
 
     /// Whether `p` lies inside by the even–odd rule; on the border either answer.
@@ -116,14 +132,13 @@ impl Polygon {
         let outside = d > 0.0 && !self.contains(a);
         // A segment that enters exactly through a corner may by rounding miss both its
         // sides: what is nearer than rounding is looked at more closely.
-        let largest = self.corners.iter().chain([&a, &b]).map(|p| p.coords.amax()).fold(0.0, f64::max);
-        if outside && d > 1e-12 * largest {
+        if outside && d > self.rounding(a, b) {
             return d;
         }
         if !self.enters_deeper_than(a, b, 0.0) {
             return if outside { d } else { 0.0 };
         }
-        let (mut lo, mut hi) = (0.0, self.aabb().diagonal());
+        let (mut lo, mut hi) = (0.0, self.aabb.diagonal());
         for _ in 0..80 {
             let mid = 0.5 * (lo + hi);
             if mid <= lo || mid >= hi {
@@ -134,20 +149,121 @@ impl Polygon {
         -lo
     }
 
+    /// What coordinates as large as the polygon's and the segment's may be off by after a few operations.
+    fn rounding(&self, a: Point, b: Point) -> f64 {
+        let corners = [&self.aabb.min, &self.aabb.max, &a, &b];
+        1e-12 * corners.into_iter().map(|p| p.coords.amax()).fold(0.0, f64::max)
+    }
+
+    /// Whether some point of segment `a b` lies inside or nearer than `reach` ≥ 0 to a side. O(n).
+    pub fn nearer_than(&self, a: Point, b: Point, reach: f64) -> bool {
+        if self.box_apart(a, b, reach) {
+            return false;
+        }
+        if self.convex {
+            let beyond = |(c, e): (Point, Point)| {
+                let u = e - c;
+                let most = -reach * u.norm();
+                cross(u, a - c) <= most && cross(u, b - c) <= most
+            };
+            if self.sides().any(beyond) {
+                return false;
+            }
+        }
+        self.contains(a) || self.sides().any(|(c, e)| segments_nearer_than(reach, a, b, c, e))
+    }
+
+    /// Whether the box, grown by `reach`, has nothing in common with the segment: separated
+    /// by a side of either box or by the segment's line.
+    fn box_apart(&self, a: Point, b: Point, reach: f64) -> bool {
+        let grown = self.aabb.inflated(reach);
+        let d = b - a;
+        let (c, h) = (grown.centre(), 0.5 * grown.size());
+        !Aabb::of_segment(a, b).overlaps(&grown) || cross(d, c - a).abs() > h.x * d.y.abs() + h.y * d.x.abs()
+    }
+
     /// Whether some point of segment `a b` lies inside, farther than `delta` ≥ 0 from every side.
     ///
-    /// Walks from cut to cut, the ends of the sides' intervals, and tests one
-    /// point between each two. O(n²), no allocation. The corners' projections are
-    /// cuts too: for δ = 0 a line through a corner may by rounding miss both its sides.
+    /// Convex polygons cut the segment by their sides moved inward, O(n). For others, and where
+    /// rounding could decide, it walks from cut to cut, the ends of the intervals near the sides,
+    /// and tests one point between each two: O(n k) for k sides near the segment, no allocation.
+    /// The corners' projections are cuts too: for δ = 0 a line through a corner may by rounding
+    /// miss both its sides.
     pub fn enters_deeper_than(&self, a: Point, b: Point, delta: f64) -> bool {
-        let deep = |t: f64| {
-            let p = a + (b - a) * t;
-            self.contains(p) && self.sides().all(|(c, e)| point_segment_distance(p, c, e) > delta)
-        };
-        if a == b {
-            return deep(0.0);
+        let rounding = self.rounding(a, b);
+        if self.box_apart(a, b, rounding) {
+            return false;
         }
+        if self.convex {
+            if self.cut_by_sides(a, b, delta + rounding) {
+                return true;
+            }
+            if !self.cut_by_sides(a, b, delta - rounding) {
+                return false;
+            }
+        }
+        // Sides that are farther than δ from the whole segment cut nothing off it.
+        let mut near = [0; NEAR_SIDES];
+        let mut count = 0;
+        for (i, (c, e)) in self.sides().enumerate() {
+            if segments_nearer_than(delta + rounding, a, b, c, e) {
+                if count < NEAR_SIDES {
+                    near[count] = i;
+                }
+                count += 1;
+            }
+        }
+        if count == 0 {
+            return self.contains(a);
+        }
+        if self.deeper_than(a, delta) || self.deeper_than(b, delta) {
+            return true;
+        }
+        if count <= NEAR_SIDES {
+            let n = self.corners.len();
+            let side = |&i: &usize| (self.corners[i], self.corners[(i + 1) % n]);
+            self.deep_between_cuts(a, b, delta, || near[..count].iter().map(side))
+        } else {
+            self.deep_between_cuts(a, b, delta, || self.sides())
+        }
+    }
+
+    /// Whether `p` lies inside, farther than `delta` from every side.
+    fn deeper_than(&self, p: Point, delta: f64) -> bool {
+        self.contains(p) && self.sides().all(|(c, e)| point_segment_distance_squared(p, c, e) > delta * delta)
+    }
+
+    /// Whether more than a point of the segment lies farther than `delta` inside every side's line.
+    fn cut_by_sides(&self, a: Point, b: Point, delta: f64) -> bool {
+        let (mut from, mut to) = (0.0_f64, 1.0_f64);
+        for (c, e) in self.sides() {
+            let u = e - c;
+            let least = delta * u.norm();
+            let (at_a, at_b) = (cross(u, a - c) - least, cross(u, b - c) - least);
+            if at_a <= 0.0 && at_b <= 0.0 {
+                return false;
+            }
+            if at_a < 0.0 {
+                from = from.max(at_a / (at_a - at_b));
+            } else if at_b < 0.0 {
+                to = to.min(at_a / (at_a - at_b));
+            }
+            if from >= to {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// Whether a point halfway between two neighbouring cuts, by `sides` or the ends, is deep.
+    fn deep_between_cuts<S>(&self, a: Point, b: Point, delta: f64, sides: impl Fn() -> S) -> bool
+    where
+        S: Iterator<Item = (Point, Point)>,
+    {
         let d = b - a;
+        if d == Vector::zeros() {
+            return self.deeper_than(a, delta);
+        }
         let cuts = |(c, e): (Point, Point)| {
             let corner = (c - a).dot(&d) / d.norm_squared();
             let (t0, t1) = near_interval(a, b, c, e, delta).unwrap_or((corner, corner));
@@ -155,8 +271,8 @@ impl Polygon {
         };
         let mut from = 0.0;
         while from < 1.0 {
-            let next = self.sides().flat_map(cuts).filter(|t| *t > from).fold(1.0, f64::min);
-            if deep(0.5 * (from + next)) {
+            let next = sides().flat_map(cuts).filter(|t| *t > from).fold(1.0, f64::min);
+            if self.deeper_than(a + d * (0.5 * (from + next)), delta) {
                 return true;
             }
             from = next;
@@ -164,6 +280,9 @@ impl Polygon {
         false
     }
 }
+
+/// Sides near a segment up to which the others are left out of the walk.
+const NEAR_SIDES: usize = 8;
 
 /// The parameters of line `a b` within `delta` of segment `c e`: one interval, or none.
 ///

@@ -1,6 +1,7 @@
 //! A scene compiled for its robot: exact continuous collision behind a broad phase.
 
-use crate::bvh::Bvh;
+use crate::bvh::{Bvh, touching};
+use crate::near::{Few, Near};
 use crate::{Aabb, Inflated, Point, Scene, SceneError};
 
 /// A compiled scene: inflated obstacles, broad phase, tolerance. Immutable.
@@ -12,6 +13,7 @@ pub struct World {
     obstacles: Vec<Inflated>,
     labels: Vec<Option<String>>,
     bvh: Bvh,
+    near: Near,
     /// Where the robot's centre may be.
     inner_field: Option<Aabb>,
     aabb: Aabb,
@@ -40,8 +42,10 @@ impl World {
         // Grown by ε, so that rounding in box tests never hides an obstacle.
         let boxes: Vec<Aabb> = obstacles.iter().map(|o| o.aabb().inflated(epsilon)).collect();
         let field = scene.field.map(Aabb::from);
+        let bvh = Bvh::build(&boxes);
         Ok(Self {
-            bvh: Bvh::build(&boxes),
+            near: Near::new(&obstacles, &boxes, &bvh, 0.5 * epsilon),
+            bvh,
             obstacles,
             labels: scene.obstacles.iter().map(|o| o.label.clone()).collect(),
             inner_field: field.map(|f| f.inflated(-scene.robot_radius)),
@@ -110,14 +114,43 @@ impl World {
     /// Whether the robot may move along `a b`: clearance ≥ −ε/2 on the whole segment.
     /// Never when a coordinate is not finite.
     pub fn segment_free(&self, a: Point, b: Point) -> bool {
-        let slack = self.slack();
         let d = b - a;
         if !(d.x + d.y).is_finite() {
             return false;
         }
-        // The field is convex: its corners decide.
-        let inside = self.inner_field.is_none_or(|f| f.depth_of(a) >= -slack && f.depth_of(b) >= -slack);
-        inside && !self.bvh.any_along(a, b, |i| !self.obstacles[i].segment_free(a, b, slack))
+        let region = Aabb::of_segment(a, b);
+        // The field is convex: the corners of the segment's box decide.
+        if let Some(field) = &self.inner_field {
+            let (low, high) = (region.min - field.min, field.max - region.max);
+            let most = -self.slack();
+            if !((low.x >= most) & (low.y >= most) & (high.x >= most) & (high.y >= most)) {
+                return false;
+            }
+        }
+        match &self.near {
+            Near::Few(few) => match few.meeting(&region) {
+                0 => true,
+                near => !self.enters_few(few, near, a, b),
+            },
+            Near::Many(discs, rest) => !discs.any_entered(a, b, &region) && !self.enters_any(rest, a, b),
+            Near::Tree => !self.enters_any(&self.bvh, a, b),
+        }
+    }
+
+    // Apart from `segment_free`, whose short way needs few registers and no stack.
+    #[inline(never)]
+    fn enters_few(&self, few: &Few, near: u64, a: Point, b: Point) -> bool {
+        few.any_entered(near, a, b, |k| self.enters(self.bvh.items()[k] as usize, a, b))
+    }
+
+    #[inline(never)]
+    fn enters_any(&self, tree: &Bvh, a: Point, b: Point) -> bool {
+        tree.any_along(a, b, |i| self.enters(i, a, b))
+    }
+
+    #[inline(never)]
+    fn enters(&self, obstacle: usize, a: Point, b: Point) -> bool {
+        !self.obstacles[obstacle].segment_free(a, b, self.slack())
     }
 
     /// Least signed clearance over the points of segment `a b`, the field included.
@@ -137,18 +170,27 @@ impl World {
 
     /// Calls `visit` with the index of every obstacle whose box overlaps `region`.
     pub fn for_each_overlapping(&self, region: &Aabb, mut visit: impl FnMut(usize)) {
-        self.bvh.any_overlapping(region, |i| {
-            visit(i);
-            false
-        });
+        if let Near::Few(few) = &self.near {
+            few.for_each(region, |aabb| region.overlaps(aabb), |k| visit(self.bvh.items()[k] as usize));
+        } else {
+            self.bvh.any_overlapping(region, |i| {
+                visit(i);
+                false
+            });
+        }
     }
 
     /// Calls `visit` with the index of every obstacle whose box the segment `a b` may touch.
     pub fn for_each_along(&self, a: Point, b: Point, mut visit: impl FnMut(usize)) {
-        self.bvh.any_along(a, b, |i| {
-            visit(i);
-            false
-        });
+        if let Near::Few(few) = &self.near {
+            let region = Aabb::of_points([&a, &b]);
+            few.for_each(&region, touching(a, b), |k| visit(self.bvh.items()[k] as usize));
+        } else {
+            self.bvh.any_along(a, b, |i| {
+                visit(i);
+                false
+            });
+        }
     }
 
     /// Whether `test` holds for the index of an obstacle whose box the segment `a b` may touch; asks no
