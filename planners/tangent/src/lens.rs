@@ -22,7 +22,7 @@ use crate::bitangent::{Bitangent, OrientedCircle, perp};
 use crate::terrain::{BroadPhase, FIRST, Terrain};
 
 /// Headings within a right angle of the axis are told apart this finely.
-const BINS: usize = 128;
+const BINS: usize = 256;
 
 /// From which distance on headings are out of sight.
 ///
@@ -175,7 +175,7 @@ impl Sweep {
             return more;
         }
         // Radii tell how dense obstacles lie, unless they are tiny.
-        let step = (4.0 * largest).max(major / 32.0);
+        let step = (6.0 * largest).max(major / 32.0);
         let (mut begin, last) = (focus - major, focus + major);
         let mut end = step;
         loop {
