@@ -30,6 +30,7 @@ mod settings;
 mod sides;
 mod swarm;
 mod terrain;
+mod width;
 
 pub use choices::{Bounds, NoLimit, RandomNumbers, Rule, Schedule, Topology, VelocityLimit};
 pub use planner::Pso;

@@ -53,7 +53,7 @@ fn reference(settings: &Settings, world: &World, columns: &Columns, seed: u64) -
     let vmax = settings.max_speed(h);
     for t in 0..settings.iterations {
         let w = 0.9 + (0.4 - 0.9) * t as f64 / (settings.iterations - 1) as f64;
-        Arch::Scalar.dispatch(UniformPairs { lanes: &mut lanes, rows: [&mut first, &mut second] });
+        Width::Scalar.run(UniformPairs { lanes: &mut lanes, rows: [&mut first, &mut second] });
         for i in 0..n {
             #[allow(clippy::needless_range_loop, reason = "the transcription keeps the paper's indices")]
             for d in 0..m {
@@ -82,13 +82,13 @@ fn scene() -> Scene {
     Scene::from_toml("lu-sun-2012.toml", include_str!("../../../../configs/scenes/lu-sun-2012.toml")).unwrap()
 }
 
-fn run(arch: Arch, settings: &Settings, world: &World, columns: &Columns, seed: u64) -> Swarm {
+fn run(width: Width, settings: &Settings, world: &World, columns: &Columns, seed: u64) -> Swarm {
     let settings = &settings.clone().filled();
     let mut terrain = Terrain::default();
     terrain.compile(world, columns, settings.bounds.unwrap_or_default());
     let mut swarm = Swarm::default();
     let mut rule = rule(settings);
-    let ground = Ground { arch, settings, world, columns, terrain: &terrain };
+    let ground = Ground { width, settings, world, columns, terrain: &terrain };
     swarm.initialise(ground, rule.as_mut(), seed);
     for t in 0..settings.iterations {
         swarm.iterate(ground, rule.as_mut(), t);
@@ -104,7 +104,7 @@ fn agrees_bit_for_bit_with_a_plain_transcription() {
         let settings = Settings { particles, columns: columns_count, iterations: 100, ..Settings::default() }.filled();
         let columns = Columns::new(scene.start(), scene.goal(), columns_count);
         for seed in 0..5 {
-            let swarm = run(Arch::new(), &settings, &world, &columns, seed);
+            let swarm = run(Width::widest(), &settings, &world, &columns, seed);
             let plain = reference(&settings, &world, &columns, seed);
             assert_eq!(swarm.global_cost.to_bits(), plain.global_cost.to_bits());
             assert_eq!(swarm.global, plain.global);
@@ -123,8 +123,8 @@ fn vector_width_changes_nothing() {
     let world = World::new(&scene).unwrap();
     let columns = Columns::new(scene.start(), scene.goal(), 20);
     let check = |settings: &Settings| {
-        let wide = run(Arch::new(), settings, &world, &columns, 3);
-        let narrow = run(Arch::Scalar, settings, &world, &columns, 3);
+        let wide = run(Width::widest(), settings, &world, &columns, 3);
+        let narrow = run(Width::Scalar, settings, &world, &columns, 3);
         assert_eq!(wide.x, narrow.x, "{settings:?}");
         assert_eq!(wide.best, narrow.best);
         assert_eq!(wide.global_cost.to_bits(), narrow.global_cost.to_bits());
@@ -154,11 +154,11 @@ fn a_used_swarm_is_as_good_as_new() {
     let columns = Columns::new(scene.start(), scene.goal(), 9);
     for rule_name in [Rule::Inertia, Rule::Quantum, Rule::Spso2011, Rule::Comprehensive] {
         let settings = Settings { rule: rule_name, columns: 9, iterations: 40, ..Settings::default() }.filled();
-        let fresh = run(Arch::new(), &settings, &world, &columns, 8);
+        let fresh = run(Width::widest(), &settings, &world, &columns, 8);
         let mut terrain = Terrain::default();
         terrain.compile(&world, &columns, settings.bounds.unwrap_or_default());
         let ground =
-            Ground { arch: Arch::new(), settings: &settings, world: &world, columns: &columns, terrain: &terrain };
+            Ground { width: Width::widest(), settings: &settings, world: &world, columns: &columns, terrain: &terrain };
         let (mut swarm, mut rule) = (Swarm::default(), rule(&settings));
         for seed in [7, 8] {
             swarm.initialise(ground, rule.as_mut(), seed);
@@ -179,7 +179,7 @@ fn invisible_walls_hide_what_is_outside() {
     let world = World::new(&scene).unwrap();
     let columns = Columns::new(scene.start(), scene.goal(), 20);
     let settings = Settings { rule: Rule::Comprehensive, iterations: 12, ..Settings::default() };
-    let swarm = run(Arch::new(), &settings, &world, &columns, 1);
+    let swarm = run(Width::widest(), &settings, &world, &columns, 1);
     let h = columns.half_width();
     let inside = |i: &usize| (0..swarm.dims).all(|d| (-h..=h).contains(&swarm.x[d * swarm.stride + i]));
     let seen = (0..swarm.particles).filter(inside).count();
@@ -210,7 +210,7 @@ fn fitness_counts_fields_capsules_and_polygons() {
                 ..Settings::default()
             };
             let columns = Columns::new(scene.start(), scene.goal(), settings.columns);
-            let swarm = run(Arch::new(), &settings, &world, &columns, 9);
+            let swarm = run(Width::widest(), &settings, &world, &columns, 9);
             let mut path = Vec::new();
             for i in (0..swarm.particles).filter(|&i| swarm.cost[i].is_finite()) {
                 let heights: Vec<f64> = (0..swarm.dims).map(|d| swarm.x[d * swarm.stride + i]).collect();
