@@ -35,3 +35,4 @@ mod width;
 pub use choices::{Bounds, NoLimit, RandomNumbers, Rule, Schedule, Topology, VelocityLimit};
 pub use planner::Pso;
 pub use settings::Settings;
+pub use width::Width;

@@ -76,7 +76,7 @@ impl<const OTHERS: bool> Pass<'_, OTHERS> {
             if per_particle && motion.is_some() {
                 numbers = generator.next_halves(unit);
             }
-            let mut flight = Flight::<V, OTHERS>::begin(unit, ground);
+            let mut flight = Flight::<V, OTHERS>::begin(unit, ground, best_cost[c]);
             let mut outside = unit.less_than_f64s(zero, zero);
             let own = x.chunks_exact_mut(row).zip(v.chunks_exact_mut(row)).zip(best.chunks_exact(row));
             let shared = global.iter().zip(social.chunks_exact(row)).zip(behind);
@@ -130,18 +130,20 @@ struct Flight<'a, V: Vectors, const OTHERS: bool> {
     /// Heights on its left column, and which lanes are inside a disc there, or off the field.
     left: V::f64s,
     left_hit: V::m64s,
-    /// Cost of the strips behind.
+    /// The personal bests' costs.
+    rival: V::f64s,
+    /// Cost of the strips behind; with capsules or polygons, no more than that once it exceeds `rival`.
     cost: V::f64s,
 }
 
 impl<'a, V: Vectors, const OTHERS: bool> Flight<'a, V, OTHERS> {
     /// At the start.
     #[inline(always)]
-    fn begin(unit: V, ground: &Ground<'a>) -> Self {
+    fn begin(unit: V, ground: &Ground<'a>, rival: V::f64s) -> Self {
         let Terrain { discs, gaps, others, .. } = ground.terrain;
         let zero = unit.splat_f64s(0.0);
         let nowhere = unit.less_than_f64s(zero, zero);
-        Self { ground: *ground, discs, gaps, others, next: 0, left: zero, left_hit: nowhere, cost: zero }
+        Self { ground: *ground, discs, gaps, others, next: 0, left: zero, left_hit: nowhere, rival, cost: zero }
     }
 
     /// Through the next strip, to the heights `right` on its right column.
@@ -176,18 +178,29 @@ impl<'a, V: Vectors, const OTHERS: bool> Flight<'a, V, OTHERS> {
             hit = unit.or_m64s(hit, unit.and_m64s(near, inner));
         }
 
-        let length = unit.sqrt_f64s(length2);
-        let penalty = self.ground.settings.penalty;
-        let mut weighted = unit.select_f64s(hit, unit.mul_f64s(length, splat(penalty)), length);
         if OTHERS && strip.others > 0 {
             let others = next(&mut self.others, strip.others);
-            let (a, b, length) = (lanes::<V>(&left), lanes::<V>(&right), lanes::<V>(&length));
-            for (k, weighted) in lanes_mut::<V>(&mut weighted).iter_mut().enumerate() {
-                if hits_other(self.ground.world, self.ground.columns, others, self.next - 1, a[k], b[k]) {
-                    *weighted = length[k] * penalty;
+            // A lane that is lost anyway needs no verdict: its cost stays above its personal best.
+            let open = unit.and_m64s(unit.not_m64s(hit), unit.less_than_f64s(self.cost, self.rival));
+            let (low, high) = (unit.min_f64s(left, right), unit.max_f64s(left, right));
+            let mut near = unit.less_than_f64s(zero, zero);
+            for other in others {
+                let below = unit.less_than_f64s(low, splat(other.high));
+                near = unit.or_m64s(near, unit.and_m64s(below, unit.greater_than_f64s(high, splat(other.low))));
+            }
+            let ask = unit.and_m64s(open, near);
+            if unit.any(ask) {
+                let mut flags = unit.select_f64s(ask, splat(1.0), zero);
+                let (a, b, world, columns) =
+                    (lanes::<V>(&left), lanes::<V>(&right), self.ground.world, self.ground.columns);
+                for (k, flag) in lanes_mut::<V>(&mut flags).iter_mut().enumerate().filter(|(_, flag)| **flag > 0.0) {
+                    *flag = f64::from(hits_other(world, columns, others, self.next - 1, a[k], b[k]));
                 }
+                hit = unit.or_m64s(hit, unit.greater_than_f64s(flags, zero));
             }
         }
+        let length = unit.sqrt_f64s(length2);
+        let weighted = unit.select_f64s(hit, unit.mul_f64s(length, splat(self.ground.settings.penalty)), length);
         self.cost = unit.add_f64s(self.cost, weighted);
         (self.left, self.left_hit) = (right, right_hit);
         self.next += 1;

@@ -47,6 +47,12 @@ impl Pso {
             rows: Rows::default(),
         })
     }
+
+    /// The planner on a vector unit of your choice, to compare speeds; results are the same.
+    #[must_use]
+    pub fn on(self, width: Width) -> Self {
+        Self { width, ..self }
+    }
 }
 
 impl Rows {

@@ -46,7 +46,8 @@ pub struct Swarm {
     pub improved: Lane,
     /// Personal bests of the neighbourhoods' leaders, laid out like `x`; not kept without neighbourhoods.
     pub social: Lane,
-    /// Costs of the last pass; +∞ where a particle was not to be evaluated.
+    /// Costs of the last pass; +∞ where a particle was not to be evaluated. Where the personal
+    /// best did not improve, collisions with capsules and polygons may be missing in it.
     pub cost: Lane,
     /// How many particles the last pass evaluated.
     pub evaluated: u64,
@@ -223,5 +224,7 @@ pub fn better(costs: &[f64], a: usize, b: usize) -> usize {
     if costs[b] < costs[a] || (costs[b] == costs[a] && b < a) { b } else { a }
 }
 
+#[cfg(test)]
+mod reference;
 #[cfg(test)]
 mod tests;

@@ -7,7 +7,7 @@
 //! interval test on its column) or the foot of the perpendicular lies inside
 //! the segment and nearer than r.
 
-use env_model::{Aabb, Columns, Point, World};
+use env_model::{Aabb, Columns, Core, Inflated, LocalFrame, Point, World};
 
 use crate::choices::Bounds;
 
@@ -33,8 +33,16 @@ pub struct Gap {
     pub half: f64,
 }
 
-/// A capsule or polygon: its index in the world, and its box in the local frame.
-pub type Other = (usize, Aabb);
+/// A capsule or polygon that can touch a strip.
+#[derive(Debug, Clone, Copy)]
+pub struct Other {
+    /// Its index in the world.
+    pub index: usize,
+    /// Between these heights it lies in the strip.
+    pub low: f64,
+    /// The upper one.
+    pub high: f64,
+}
 
 /// What a strip between two columns has: so many of the terrain's lists, which are in the order of the strips.
 #[derive(Debug, Clone, Copy)]
@@ -68,8 +76,10 @@ pub struct Terrain {
     pub dx: f64,
     /// Each disc that the swarm can meet once: centre and radius.
     met_discs: Vec<(f64, f64, f64)>,
-    /// Each capsule and polygon once.
-    met_others: Vec<Other>,
+    /// Each capsule and polygon once: index and box.
+    met_others: Vec<(usize, Aabb)>,
+    /// Indices of obstacles that may be met.
+    near: Vec<usize>,
 }
 
 impl Terrain {
@@ -81,7 +91,9 @@ impl Terrain {
         self.dx = dx;
         self.met_discs.clear();
         self.met_others.clear();
-        for (i, obstacle) in world.obstacles().iter().enumerate() {
+        self.find_near(world, columns, bounds);
+        for &i in &self.near {
+            let obstacle = &world.obstacles()[i];
             if let Some((c, r)) = obstacle.as_disc() {
                 let c = frame.to_local(c);
                 if c.x + r > 0.0 && c.x - r < length && c.y.abs() - r < reach {
@@ -114,7 +126,13 @@ impl Terrain {
                     self.gaps.push(Gap { cy, half: (r * r - off * off).sqrt() });
                 }
             }
-            self.others.extend(self.met_others.iter().filter(|(_, b)| b.max.x > left && b.min.x < right));
+            for (index, b) in &self.met_others {
+                if b.max.x > left && b.min.x < right {
+                    let obstacle = &world.obstacles()[*index];
+                    let (low, high) = span(frame, obstacle, left, right, world.epsilon());
+                    self.others.push(Other { index: *index, low: low.max(b.min.y), high: high.min(b.max.y) });
+                }
+            }
             self.strips.push(Strip {
                 dx2: dx * dx,
                 discs: self.discs.len() - before.0,
@@ -128,6 +146,22 @@ impl Terrain {
         }
     }
 
+    /// Finds the obstacles whose boxes in the world meet that of the search rectangle.
+    fn find_near(&mut self, world: &World, columns: &Columns, bounds: Bounds) {
+        self.near.clear();
+        if matches!(bounds, Bounds::None) {
+            self.near.extend(0..world.obstacles().len());
+            return;
+        }
+        let (length, h) = (columns.frame().length(), columns.half_width());
+        let corners = [(0.0, -h), (0.0, h), (length, -h), (length, h)];
+        let corners = corners.map(|(x, y)| columns.frame().to_world(Point::new(x, y)));
+        // Wider than any rounding of the turn into the local frame and back.
+        let region = Aabb::of_points(&corners).inflated(world.epsilon());
+        world.for_each_overlapping(&region, |i| self.near.push(i));
+        self.near.sort_unstable();
+    }
+
     /// Centres (x', y') of every obstacle that the swarm can meet, in scene order by kind.
     pub fn centres(&self) -> impl Iterator<Item = Point> + '_ {
         let discs = self.met_discs.iter().map(|&(cx, cy, _)| Point::new(cx, cy));
@@ -135,11 +169,45 @@ impl Terrain {
     }
 }
 
+/// Heights between which an obstacle lies, from `left` to `right`, at least; lowest above highest where it does not.
+///
+/// A point of it is nearer than its radius r to a point of its core at most r further
+/// left or right. All is widened by `margin`, for rounding.
+fn span(frame: &LocalFrame, obstacle: &Inflated, left: f64, right: f64, margin: f64) -> (f64, f64) {
+    let reach = obstacle.radius + margin;
+    let (left, right) = (left - reach, right + reach);
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    let mut include = |a: Point, b: Point| {
+        let (a, b) = (frame.to_local(a), frame.to_local(b));
+        let (a, b) = if a.x <= b.x { (a, b) } else { (b, a) };
+        if a.x <= right && b.x >= left {
+            let at = |x: f64| {
+                if x <= a.x {
+                    a.y
+                } else if x >= b.x {
+                    b.y
+                } else {
+                    a.y + (x - a.x) / (b.x - a.x) * (b.y - a.y)
+                }
+            };
+            let (first, last) = (at(left), at(right));
+            (low, high) = (low.min(first).min(last), high.max(first).max(last));
+        }
+    };
+    match &obstacle.core {
+        Core::Point(c) => include(*c, *c),
+        Core::Segment(a, b) => include(*a, *b),
+        Core::Polygon(polygon) => polygon.sides().for_each(|(a, b)| include(a, b)),
+    }
+    (low - reach, high + reach)
+}
+
 /// Whether the segment of strip j from height `a` to `b` hits one of `others`, capsules and polygons of `world`.
 pub fn hits_other(world: &World, columns: &Columns, others: &[Other], j: usize, a: f64, b: f64) -> bool {
     let (low, high) = (a.min(b), a.max(b));
     let at = |i: usize, y: f64| columns.frame().to_world(Point::new(columns.x(i), y));
-    others.iter().any(|(i, aabb)| {
-        low < aabb.max.y && high > aabb.min.y && !world.obstacles()[*i].segment_free(at(j, a), at(j + 1, b), 0.0)
+    others.iter().any(|other| {
+        let apart = low >= other.high || high <= other.low;
+        !apart && !world.obstacles()[other.index].segment_free(at(j, a), at(j + 1, b), 0.0)
     })
 }

@@ -79,9 +79,24 @@ impl Width {
         Self::all().next().unwrap_or(Self::Scalar)
     }
 
+    /// Its usual name.
+    pub fn name(self) -> &'static str {
+        match self {
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512(_) => "AVX-512",
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2(_) => "AVX2",
+            #[cfg(target_arch = "x86_64")]
+            Self::Sse42(_) => "SSE 4.2",
+            #[cfg(target_arch = "aarch64")]
+            Self::Neon(_) => "NEON",
+            Self::Scalar => "scalar",
+        }
+    }
+
     /// Runs a kernel.
     #[inline(always)]
-    pub fn run(self, kernel: impl Kernel) {
+    pub(crate) fn run(self, kernel: impl Kernel) {
         match self {
             #[cfg(target_arch = "x86_64")]
             Self::Avx512(unit) => Simd::vectorize(unit, On { unit, kernel }),
