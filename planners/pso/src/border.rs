@@ -3,10 +3,9 @@
 //! Common to all update rules: x ← x + v with |v| ≤ the limit, then what
 //! [`Bounds`] says of particles past |y'| = H.
 
-use pulp::{Simd, WithSimd};
-
 use crate::choices::Bounds;
 use crate::swarm::{Ground, Swarm};
+use crate::width::{Kernel, Vectors};
 
 /// Where particles may be and how fast they may fly.
 #[derive(Debug, Clone, Copy)]
@@ -32,24 +31,26 @@ impl Border {
 
     /// (new position, new velocity) of particles at `x` that want to fly with `v`.
     #[inline(always)]
-    pub fn advance<S: Simd>(self, simd: S, x: S::f64s, v: S::f64s) -> (S::f64s, S::f64s) {
-        let splat = |value: f64| simd.splat_f64s(value);
-        let clamp = |value, limit: f64| simd.max_f64s(simd.min_f64s(value, splat(limit)), splat(-limit));
+    pub fn advance<V: Vectors>(self, unit: V, x: V::f64s, v: V::f64s) -> (V::f64s, V::f64s) {
+        let splat = |value: f64| unit.splat_f64s(value);
+        let clamp = |value, limit: f64| unit.max_f64s(unit.min_f64s(value, splat(limit)), splat(-limit));
         let v = clamp(v, self.max_speed);
-        let flown = simd.add_f64s(x, v);
+        let flown = unit.add_f64s(x, v);
         if matches!(self.bounds, Bounds::None | Bounds::Invisible) {
             return (flown, v);
         }
         let clipped = clamp(flown, self.half_width);
-        let within = simd.equal_f64s(clipped, flown);
-        match self.bounds {
-            Bounds::None | Bounds::Invisible | Bounds::Clip => (clipped, v),
-            Bounds::Stop => (clipped, simd.select_f64s(within, v, splat(0.0))),
-            Bounds::Rebound => (clipped, simd.select_f64s(within, v, simd.mul_f64s(splat(-0.5), v))),
-            Bounds::Reflect => {
-                let mirrored = simd.sub_f64s(simd.add_f64s(clipped, clipped), flown);
-                (clamp(mirrored, self.half_width), simd.select_f64s(within, v, simd.neg_f64s(v)))
-            }
+        let within = unit.equal_f64s(clipped, flown);
+        // Tests instead of a `match`: the default comes first, and no table of jumps.
+        if self.bounds == Bounds::Stop {
+            (clipped, unit.select_f64s(within, v, splat(0.0)))
+        } else if self.bounds == Bounds::Rebound {
+            (clipped, unit.select_f64s(within, v, unit.mul_f64s(splat(-0.5), v)))
+        } else if self.bounds == Bounds::Reflect {
+            let mirrored = unit.sub_f64s(unit.add_f64s(clipped, clipped), flown);
+            (clamp(mirrored, self.half_width), unit.select_f64s(within, v, unit.neg_f64s(v)))
+        } else {
+            (clipped, v)
         }
     }
 }
@@ -62,14 +63,12 @@ pub struct Advance<'a> {
     pub border: Border,
 }
 
-impl WithSimd for Advance<'_> {
-    type Output = ();
-
+impl Kernel for Advance<'_> {
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
+    fn run<V: Vectors>(self, unit: V) {
         let Swarm { x, v, .. } = self.swarm;
-        for (x, v) in S::as_mut_simd_f64s(x).0.iter_mut().zip(S::as_mut_simd_f64s(v).0) {
-            (*x, *v) = self.border.advance(simd, *x, *v);
+        for (x, v) in V::as_mut_simd_f64s(x).0.iter_mut().zip(V::as_mut_simd_f64s(v).0) {
+            (*x, *v) = self.border.advance(unit, *x, *v);
         }
     }
 }

@@ -30,7 +30,9 @@ mod settings;
 mod sides;
 mod swarm;
 mod terrain;
+mod width;
 
 pub use choices::{Bounds, NoLimit, RandomNumbers, Rule, Schedule, Topology, VelocityLimit};
 pub use planner::Pso;
 pub use settings::Settings;
+pub use width::Width;

@@ -2,19 +2,19 @@
 
 use env_model::Columns;
 use planner_api::{Detail, Plan, PlanError, Planner, Problem, Run, SettingError, Status, SwarmView, View};
-use pulp::Arch;
 
 use crate::Settings;
 use crate::rules::{UpdateRule, rule};
 use crate::sides::SideClasses;
 use crate::swarm::{Ground, Swarm};
 use crate::terrain::Terrain;
+use crate::width::Width;
 
 /// Lu & Sun's swarm, or one of its family. Buffers are kept between calls.
 pub struct Pso {
     settings: Settings,
     rule: Box<dyn UpdateRule>,
-    arch: Arch,
+    width: Width,
     swarm: Swarm,
     terrain: Terrain,
     sides: SideClasses,
@@ -40,12 +40,18 @@ impl Pso {
         Ok(Self {
             rule: rule(&settings),
             settings,
-            arch: Arch::new(),
+            width: Width::widest(),
             swarm: Swarm::default(),
             terrain: Terrain::default(),
             sides: SideClasses::default(),
             rows: Rows::default(),
         })
+    }
+
+    /// The planner on a vector unit of your choice, to compare speeds; results are the same.
+    #[must_use]
+    pub fn on(self, width: Width) -> Self {
+        Self { width, ..self }
     }
 }
 
@@ -79,10 +85,10 @@ impl Planner for Pso {
             plan.counters = run.spent;
             return Ok(Status::BudgetSpent);
         }
-        let Self { settings, rule, arch, swarm, terrain, sides, rows } = self;
+        let Self { settings, rule, width, swarm, terrain, sides, rows } = self;
         terrain.compile(problem.world, &columns, settings.bounds.unwrap_or_default());
         sides.begin(settings.side_classes, terrain, &columns);
-        let ground = Ground { arch: *arch, settings, world: problem.world, columns: &columns, terrain };
+        let ground = Ground { width: *width, settings, world: problem.world, columns: &columns, terrain };
         let mut account = |swarm: &Swarm, run: &mut Run<'_>| {
             run.spent.evaluations += swarm.evaluated;
             run.spent.collision_checks += swarm.evaluated * (m as u64 + 1);

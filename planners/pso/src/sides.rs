@@ -58,7 +58,7 @@ impl SideClasses {
             return;
         }
         for lane in 0..swarm.particles {
-            if swarm.improved[lane] {
+            if swarm.improved[lane] != 0.0 {
                 self.note(swarm, lane);
             }
         }

@@ -2,16 +2,16 @@
 
 use aligned_vec::{AVec, ConstAlign};
 use env_model::{Columns, World};
-use pulp::Arch;
 
 use crate::border::{Advance, Border};
 use crate::choices::{Bounds, Topology};
 use crate::lanes::{BLOCK, Lanes, UniformPairs};
 use crate::neighbours::Neighbours;
-use crate::pass::{KeepBetter, Pass};
+use crate::pass::Pass;
 use crate::rules::{UpdateRule, Weights};
 use crate::settings::Settings;
 use crate::terrain::Terrain;
+use crate::width::Width;
 
 /// Numbers aligned to the widest vectors: one that straddles two cache lines costs two accesses.
 pub type Lane = AVec<f64, ConstAlign<64>>;
@@ -42,11 +42,12 @@ pub struct Swarm {
     leader: usize,
     /// Smaller neighbourhoods than the whole swarm.
     pub neighbours: Neighbours,
-    /// Lanes whose personal best improved in the last pass.
-    pub improved: Vec<bool>,
+    /// 1 in lanes whose personal best improved in the last pass, else 0.
+    pub improved: Lane,
     /// Personal bests of the neighbourhoods' leaders, laid out like `x`; not kept without neighbourhoods.
     pub social: Lane,
-    /// Costs of the last pass; +∞ where a particle was not to be evaluated.
+    /// Costs of the last pass; +∞ where a particle was not to be evaluated. Where the personal
+    /// best did not improve, collisions with capsules and polygons may be missing in it.
     pub cost: Lane,
     /// How many particles the last pass evaluated.
     pub evaluated: u64,
@@ -74,7 +75,7 @@ impl Default for Swarm {
             global_cost: f64::INFINITY,
             leader: 0,
             neighbours: Neighbours::default(),
-            improved: Vec::new(),
+            improved: lane(),
             social: lane(),
             cost: lane(),
             evaluated: 0,
@@ -89,7 +90,7 @@ impl Default for Swarm {
 #[derive(Clone, Copy)]
 pub struct Ground<'a> {
     /// The vector unit in use.
-    pub arch: Arch,
+    pub width: Width,
     /// The planner's settings, filled.
     pub settings: &'a Settings,
     /// The compiled scene.
@@ -119,7 +120,7 @@ impl Swarm {
             vector.resize(self.stride, f64::INFINITY);
         }
         self.improved.clear();
-        self.improved.resize(self.stride, false);
+        self.improved.resize(self.stride, 0.0);
         self.global.clear();
         self.global.resize(self.dims, 0.0);
         self.global_cost = f64::INFINITY;
@@ -139,53 +140,35 @@ impl Swarm {
     /// Moves, evaluates and updates the bests: iteration `t`, counted from 0.
     pub fn iterate(&mut self, ground: Ground<'_>, rule: &mut dyn UpdateRule, t: u64) {
         let [first, second] = &mut self.random;
-        ground.arch.dispatch(UniformPairs { lanes: &mut self.rng, rows: [first, second] });
-        self.step(ground, rule, t);
-    }
-
-    /// An iteration with the random numbers that have been drawn.
-    pub fn step(&mut self, ground: Ground<'_>, rule: &mut dyn UpdateRule, t: u64) {
-        let border = Border::of(ground);
-        let motion = rule.steer(self, t).map(|weights| (weights, border));
+        if !first.is_empty() {
+            ground.width.run(UniformPairs { lanes: &mut self.rng, rows: [first, second] });
+        }
+        let motion = rule.steer(self, t).map(|weights| (weights, Border::of(ground)));
         if motion.is_none() {
-            ground.arch.dispatch(Advance { swarm: self, border });
+            self.advance(ground);
         }
         self.evaluate(ground, motion);
     }
 
+    /// Moves the particles with the velocities they have.
+    pub fn advance(&mut self, ground: Ground<'_>) {
+        ground.width.run(Advance { border: Border::of(ground), swarm: self });
+    }
+
     /// Evaluates, on the way moving the particles if told to, and updates the bests.
     pub fn evaluate(&mut self, ground: Ground<'_>, motion: Option<(Weights, Border)>) {
-        if ground.terrain.only_discs() {
-            ground.arch.dispatch(Pass::<false> { swarm: self, ground, motion });
+        let hidden = ground.settings.bounds.unwrap_or_default() == Bounds::Invisible;
+        if ground.terrain.others.is_empty() {
+            ground.width.run(Pass::<false> { swarm: self, ground, motion });
         } else {
-            ground.arch.dispatch(Pass::<true> { swarm: self, ground, motion });
+            ground.width.run(Pass::<true> { swarm: self, ground, motion });
         }
-        self.evaluated = self.particles as u64;
-        if ground.settings.bounds.unwrap_or_default() == Bounds::Invisible {
-            self.ignore_outside(ground.columns.half_width());
-        }
-        self.keep_bests(ground);
-    }
+        let evaluated = |cost: &&f64| !hidden || **cost < f64::INFINITY;
+        self.evaluated = self.cost[..self.particles].iter().filter(evaluated).count() as u64;
 
-    /// As if particles past |y'| = `half_width` had not been evaluated.
-    fn ignore_outside(&mut self, half_width: f64) {
-        for i in 0..self.particles {
-            if (0..self.dims).any(|d| self.x[d * self.stride + i].abs() > half_width) {
-                self.cost[i] = f64::INFINITY;
-                self.evaluated -= 1;
-            }
-        }
-    }
-
-    fn keep_bests(&mut self, ground: Ground<'_>) {
         let before = self.global_cost;
-        let mut any = false;
-        for i in 0..self.particles {
-            self.improved[i] = self.cost[i] < self.best_cost[i];
-            any |= self.improved[i];
-        }
+        let any = self.improved[..self.particles].iter().any(|&improved| improved != 0.0);
         if any {
-            ground.arch.dispatch(KeepBetter(self));
             self.find_leader();
         }
         let topology = ground.settings.topology.unwrap_or_default();
@@ -241,5 +224,7 @@ pub fn better(costs: &[f64], a: usize, b: usize) -> usize {
     if costs[b] < costs[a] || (costs[b] == costs[a] && b < a) { b } else { a }
 }
 
+#[cfg(test)]
+mod reference;
 #[cfg(test)]
 mod tests;

@@ -7,7 +7,7 @@
 //! interval test on its column) or the foot of the perpendicular lies inside
 //! the segment and nearer than r.
 
-use env_model::{Aabb, Columns, Point, World};
+use env_model::{Aabb, Columns, Core, Inflated, LocalFrame, Point, World};
 
 use crate::choices::Bounds;
 
@@ -16,6 +16,8 @@ use crate::choices::Bounds;
 pub struct StripDisc {
     /// Centre's x' less the left column's.
     pub fx: f64,
+    /// The same times the column spacing.
+    pub fx_dx: f64,
     /// Centre's y'.
     pub cy: f64,
     /// Radius squared.
@@ -31,26 +33,53 @@ pub struct Gap {
     pub half: f64,
 }
 
-/// Lists by column and by strip; strip j lies between columns j and j + 1.
+/// A capsule or polygon that can touch a strip.
+#[derive(Debug, Clone, Copy)]
+pub struct Other {
+    /// Its index in the world.
+    pub index: usize,
+    /// Between these heights it lies in the strip.
+    pub low: f64,
+    /// The upper one.
+    pub high: f64,
+}
+
+/// What a strip between two columns has: so many of the terrain's lists, which are in the order of the strips.
+#[derive(Debug, Clone, Copy)]
+pub struct Strip {
+    /// Width squared.
+    pub dx2: f64,
+    /// Discs that can touch it.
+    pub discs: usize,
+    /// Gaps of its right column; the goal's has none, as the goal is free.
+    pub gaps: usize,
+    /// Capsules and polygons that can touch it.
+    pub others: usize,
+    /// Heights where its right column is inside the field.
+    pub inside: (f64, f64),
+}
+
+/// Lists by strip; strip j lies between columns j and j + 1.
 #[derive(Debug, Clone, Default)]
 pub struct Terrain {
-    /// Discs of all strips; `strip_ends[j]` ends strip j's.
-    strip_discs: Vec<StripDisc>,
-    strip_ends: Vec<usize>,
-    /// Gaps of columns 1 … m + 1 (the last is the goal's, empty).
-    gaps: Vec<Gap>,
-    gap_ends: Vec<usize>,
-    /// Heights where columns 1 … m are inside the field.
-    pub inside: Vec<(f64, f64)>,
+    /// A strip of no width before the start, then strips 0 … m.
+    pub strips: Vec<Strip>,
+    /// Discs of all strips.
+    pub discs: Vec<StripDisc>,
+    /// Gaps of all columns.
+    pub gaps: Vec<Gap>,
+    /// Capsules and polygons of all strips.
+    pub others: Vec<Other>,
     /// Whether the scene has a field.
     pub has_field: bool,
-    /// Capsules and polygons, as indices into the world's obstacles, with their boxes: all, and by strip.
-    others: Vec<(usize, Aabb)>,
-    strip_others: Vec<(usize, Aabb)>,
-    strip_other_ends: Vec<usize>,
     /// Column spacing.
     pub dx: f64,
-    discs: Vec<(f64, f64, f64)>,
+    /// Each disc that the swarm can meet once: centre and radius.
+    met_discs: Vec<(f64, f64, f64)>,
+    /// Each capsule and polygon once: index and box.
+    met_others: Vec<(usize, Aabb)>,
+    /// Indices of obstacles that may be met.
+    near: Vec<usize>,
 }
 
 impl Terrain {
@@ -60,95 +89,125 @@ impl Terrain {
         let length = frame.length();
         let reach = if bounds == Bounds::None { f64::INFINITY } else { columns.half_width() };
         self.dx = dx;
-        self.discs.clear();
-        self.others.clear();
-        for (i, obstacle) in world.obstacles().iter().enumerate() {
+        self.met_discs.clear();
+        self.met_others.clear();
+        self.find_near(world, columns, bounds);
+        for &i in &self.near {
+            let obstacle = &world.obstacles()[i];
             if let Some((c, r)) = obstacle.as_disc() {
                 let c = frame.to_local(c);
                 if c.x + r > 0.0 && c.x - r < length && c.y.abs() - r < reach {
-                    self.discs.push((c.x, c.y, r));
+                    self.met_discs.push((c.x, c.y, r));
                 }
             } else {
                 let b = frame.aabb_of(obstacle);
                 if b.max.x > 0.0 && b.min.x < length && b.max.y > -reach && b.min.y < reach {
-                    self.others.push((i, b));
+                    self.met_others.push((i, b));
                 }
             }
         }
-        self.strip_discs.clear();
-        self.strip_ends.clear();
+        self.strips.clear();
+        self.discs.clear();
         self.gaps.clear();
-        self.gap_ends.clear();
-        self.strip_others.clear();
-        self.strip_other_ends.clear();
+        self.others.clear();
+        self.has_field = world.inner_field().is_some();
+        let everywhere = (f64::NEG_INFINITY, f64::INFINITY);
+        self.strips.push(Strip { dx2: 0.0, discs: 0, gaps: 0, others: 0, inside: everywhere });
         for j in 0..=m {
+            let before = (self.discs.len(), self.gaps.len(), self.others.len());
             let (left, right) = (columns.x(j), columns.x(j + 1));
-            for &(cx, cy, r) in &self.discs {
+            for &(cx, cy, r) in &self.met_discs {
                 if cx + r > left && cx - r < right {
-                    self.strip_discs.push(StripDisc { fx: cx - left, cy, r2: r * r });
+                    let fx = cx - left;
+                    self.discs.push(StripDisc { fx, fx_dx: fx * dx, cy, r2: r * r });
                 }
                 let off = right - cx;
-                // The goal's own column takes no part: the goal is free.
                 if j < m && off.abs() < r {
                     self.gaps.push(Gap { cy, half: (r * r - off * off).sqrt() });
                 }
             }
-            for (i, b) in &self.others {
+            for (index, b) in &self.met_others {
                 if b.max.x > left && b.min.x < right {
-                    self.strip_others.push((*i, *b));
+                    let obstacle = &world.obstacles()[*index];
+                    let (low, high) = span(frame, obstacle, left, right, world.epsilon());
+                    self.others.push(Other { index: *index, low: low.max(b.min.y), high: high.min(b.max.y) });
                 }
             }
-            self.strip_ends.push(self.strip_discs.len());
-            self.gap_ends.push(self.gaps.len());
-            self.strip_other_ends.push(self.strip_others.len());
+            self.strips.push(Strip {
+                dx2: dx * dx,
+                discs: self.discs.len() - before.0,
+                gaps: self.gaps.len() - before.1,
+                others: self.others.len() - before.2,
+                inside: match world.inner_field() {
+                    Some(field) if j < m => columns.inside(j + 1, field),
+                    _ => everywhere,
+                },
+            });
         }
-        self.inside.clear();
-        self.has_field = world.inner_field().is_some();
-        if let Some(field) = world.inner_field() {
-            self.inside.extend((1..=m).map(|i| columns.inside(i, field)));
+    }
+
+    /// Finds the obstacles whose boxes in the world meet that of the search rectangle.
+    fn find_near(&mut self, world: &World, columns: &Columns, bounds: Bounds) {
+        self.near.clear();
+        if matches!(bounds, Bounds::None) {
+            self.near.extend(0..world.obstacles().len());
+            return;
         }
-    }
-
-    /// The discs that can touch strip j.
-    #[inline(always)]
-    pub fn strip(&self, j: usize) -> &[StripDisc] {
-        let begin = if j == 0 { 0 } else { self.strip_ends[j - 1] };
-        &self.strip_discs[begin..self.strip_ends[j]]
-    }
-
-    /// The gaps of column j + 1, the right border of strip j.
-    #[inline(always)]
-    pub fn gaps_right_of(&self, j: usize) -> &[Gap] {
-        let begin = if j == 0 { 0 } else { self.gap_ends[j - 1] };
-        &self.gaps[begin..self.gap_ends[j]]
-    }
-
-    /// Whether the segment of strip j from height `a` to `b` hits a capsule or polygon of `world`.
-    pub fn hits_other(&self, world: &World, columns: &Columns, j: usize, a: f64, b: f64) -> bool {
-        let begin = if j == 0 { 0 } else { self.strip_other_ends[j - 1] };
-        let strip = &self.strip_others[begin..self.strip_other_ends[j]];
-        let (low, high) = (a.min(b), a.max(b));
-        let at = |i: usize, y: f64| columns.frame().to_world(Point::new(columns.x(i), y));
-        strip.iter().any(|(i, aabb)| {
-            low < aabb.max.y && high > aabb.min.y && !world.obstacles()[*i].segment_free(at(j, a), at(j + 1, b), 0.0)
-        })
-    }
-
-    /// Whether there are no capsules or polygons.
-    pub fn only_discs(&self) -> bool {
-        self.others.is_empty()
-    }
-
-    /// Whether strip j has capsules or polygons.
-    #[inline(always)]
-    pub fn has_others(&self, j: usize) -> bool {
-        let begin = if j == 0 { 0 } else { self.strip_other_ends[j - 1] };
-        begin < self.strip_other_ends[j]
+        let (length, h) = (columns.frame().length(), columns.half_width());
+        let corners = [(0.0, -h), (0.0, h), (length, -h), (length, h)];
+        let corners = corners.map(|(x, y)| columns.frame().to_world(Point::new(x, y)));
+        // Wider than any rounding of the turn into the local frame and back.
+        let region = Aabb::of_points(&corners).inflated(world.epsilon());
+        world.for_each_overlapping(&region, |i| self.near.push(i));
+        self.near.sort_unstable();
     }
 
     /// Centres (x', y') of every obstacle that the swarm can meet, in scene order by kind.
     pub fn centres(&self) -> impl Iterator<Item = Point> + '_ {
-        let discs = self.discs.iter().map(|&(cx, cy, _)| Point::new(cx, cy));
-        discs.chain(self.others.iter().map(|(_, b)| b.centre()))
+        let discs = self.met_discs.iter().map(|&(cx, cy, _)| Point::new(cx, cy));
+        discs.chain(self.met_others.iter().map(|(_, b)| b.centre()))
     }
+}
+
+/// Heights between which an obstacle lies, from `left` to `right`, at least; lowest above highest where it does not.
+///
+/// A point of it is nearer than its radius r to a point of its core at most r further
+/// left or right. All is widened by `margin`, for rounding.
+fn span(frame: &LocalFrame, obstacle: &Inflated, left: f64, right: f64, margin: f64) -> (f64, f64) {
+    let reach = obstacle.radius + margin;
+    let (left, right) = (left - reach, right + reach);
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    let mut include = |a: Point, b: Point| {
+        let (a, b) = (frame.to_local(a), frame.to_local(b));
+        let (a, b) = if a.x <= b.x { (a, b) } else { (b, a) };
+        if a.x <= right && b.x >= left {
+            let at = |x: f64| {
+                if x <= a.x {
+                    a.y
+                } else if x >= b.x {
+                    b.y
+                } else {
+                    a.y + (x - a.x) / (b.x - a.x) * (b.y - a.y)
+                }
+            };
+            let (first, last) = (at(left), at(right));
+            (low, high) = (low.min(first).min(last), high.max(first).max(last));
+        }
+    };
+    match &obstacle.core {
+        Core::Point(c) => include(*c, *c),
+        Core::Segment(a, b) => include(*a, *b),
+        Core::Polygon(polygon) => polygon.sides().for_each(|(a, b)| include(a, b)),
+    }
+    (low - reach, high + reach)
+}
+
+/// Whether the segment of strip j from height `a` to `b` hits one of `others`, capsules and polygons of `world`.
+pub fn hits_other(world: &World, columns: &Columns, others: &[Other], j: usize, a: f64, b: f64) -> bool {
+    let (low, high) = (a.min(b), a.max(b));
+    let at = |i: usize, y: f64| columns.frame().to_world(Point::new(columns.x(i), y));
+    others.iter().any(|other| {
+        let apart = low >= other.high || high <= other.low;
+        !apart && !world.obstacles()[other.index].segment_free(at(j, a), at(j + 1, b), 0.0)
+    })
 }

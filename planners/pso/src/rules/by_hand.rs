@@ -7,13 +7,14 @@
 //! are from a short calculation of its own, in plain Python, of the rule's formula.
 
 use env_model::{Columns, Point, Scene, World};
-use pulp::Arch;
+use pulp::Scalar;
 
 use super::UpdateRule;
 use crate::choices::Bounds;
 use crate::settings::Settings;
 use crate::swarm::{Ground, Swarm};
 use crate::terrain::Terrain;
+use crate::width::Width;
 
 /// Positions of the three particles.
 pub type Positions = [[f64; 2]; 3];
@@ -47,8 +48,8 @@ pub fn check(
     assert_eq!((columns.spacing(), columns.half_width()), (4.0, 3.0));
     let mut terrain = Terrain::default();
     terrain.compile(&world, &columns, Bounds::None);
-    let arch = Arch::new();
-    let ground = Ground { arch, settings: &settings, world: &world, columns: &columns, terrain: &terrain };
+    let ground =
+        Ground { width: Width::widest(), settings: &settings, world: &world, columns: &columns, terrain: &terrain };
 
     let mut swarm = Swarm::default();
     swarm.initialise(ground, rule, 0);
@@ -69,7 +70,17 @@ pub fn check(
                 swarm.random[1][row * swarm.stride + i] = r2(k, row, i);
             }
         }
-        swarm.step(ground, rule, first + k as u64);
+        if let Some(weights) = rule.steer(&mut swarm, first + k as u64) {
+            // Their sweep draws numbers of its own.
+            for (d, i) in (0..2).flat_map(|d| (0..3).map(move |i| (d, i))) {
+                let at = d * swarm.stride + i;
+                let (own, social) = (swarm.best[at], swarm.global[d]);
+                let numbers = (r1(k, d, i), r2(k, d, i));
+                swarm.v[at] = weights.velocity(Scalar, numbers, (swarm.x[at], swarm.v[at]), (own, social));
+            }
+        }
+        swarm.advance(ground);
+        swarm.evaluate(ground, None);
         for (i, expected) in expected.into_iter().enumerate() {
             for (d, expected) in expected.into_iter().enumerate() {
                 let x = swarm.x[d * swarm.stride + i];

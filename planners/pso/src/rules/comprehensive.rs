@@ -53,7 +53,7 @@ impl Comprehensive {
     fn refresh(&mut self, swarm: &mut Swarm, t: u64) {
         let Swarm { particles: n, dims, cost, best_cost, improved, choices, .. } = swarm;
         for i in 0..*n {
-            if improved[i] {
+            if improved[i] != 0.0 {
                 self.stale[i] = 0;
             } else if cost[i] < f64::INFINITY {
                 self.stale[i] += 1;
@@ -207,12 +207,12 @@ mod tests {
         let mut swarm = Swarm::default();
         (swarm.particles, swarm.dims) = (3, 2);
         swarm.choices.seed(&mut 1, 1);
-        for (cost, best) in [(2.0, 1.0), (1.0, 1.0), (f64::INFINITY, 1.0)] {
+        // The first has not improved, the second has, the third was outside and not evaluated.
+        for (cost, best, improved) in [(2.0, 1.0, 0.0), (1.0, 1.0, 1.0), (f64::INFINITY, 1.0, 0.0)] {
             swarm.cost.push(cost);
             swarm.best_cost.push(best);
+            swarm.improved.push(improved);
         }
-        // The first has not improved, the second has, the third was outside and not evaluated.
-        swarm.improved = vec![false, true, false];
         rule.stale = vec![6, 6, 6];
         rule.refresh(&mut swarm, 20);
         assert_eq!(rule.stale, [0, 0, 6]);

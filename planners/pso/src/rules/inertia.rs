@@ -4,15 +4,15 @@
 //! equations 1 and 2; Shi & Eberhart 1998), r1, r2 uniform on [0, 1). With
 //! constriction (Clerc & Kennedy 2002) w = χ and c1 = c2 = χφ/2, φ = 4.1.
 //!
-//! It has no file of loops: the evaluation's sweep computes the velocities as it
-//! reads the positions, which is twice as fast.
-
-use pulp::Simd;
+//! It has no loops: the evaluation's sweep ([`crate::pass`]) draws the random numbers
+//! and computes the velocities as it reads the positions.
 
 use super::UpdateRule;
-use crate::choices::{RandomNumbers, Rule, Schedule};
+use crate::choices::{Rule, Schedule};
+use crate::lanes::INV_2_32;
 use crate::settings::Settings;
 use crate::swarm::Swarm;
+use crate::width::Vectors;
 
 /// χ for φ = 4.1, and χφ/2, as everyone rounds them.
 const CONSTRICTION: Weights = Weights { w: 0.7298, c1: 1.49618, c2: 1.49618 };
@@ -29,18 +29,24 @@ pub struct Weights {
 }
 
 impl Weights {
+    /// For random numbers of 0 … 2³² instead of 0 … 1. Exact, so that the bits stay the
+    /// same: multiplying by a power of two commutes with rounding.
+    pub fn for_words(self) -> Self {
+        Self { c1: self.c1 * INV_2_32, c2: self.c2 * INV_2_32, ..self }
+    }
+
     /// Equation (1): the new velocities of particles at `x`.
     #[inline(always)]
-    pub fn velocity<S: Simd>(
+    pub fn velocity<V: Vectors>(
         &self,
-        simd: S,
-        (r1, r2): (S::f64s, S::f64s),
-        (x, v): (S::f64s, S::f64s),
-        (own, social): (S::f64s, S::f64s),
-    ) -> S::f64s {
-        let splat = |value: f64| simd.splat_f64s(value);
-        let pull = |c: f64, r, to| simd.mul_f64s(simd.mul_f64s(splat(c), r), simd.sub_f64s(to, x));
-        simd.add_f64s(simd.add_f64s(simd.mul_f64s(splat(self.w), v), pull(self.c1, r1, own)), pull(self.c2, r2, social))
+        unit: V,
+        (r1, r2): (V::f64s, V::f64s),
+        (x, v): (V::f64s, V::f64s),
+        (own, social): (V::f64s, V::f64s),
+    ) -> V::f64s {
+        let splat = |value: f64| unit.splat_f64s(value);
+        let pull = |c: f64, r, to| unit.mul_f64s(unit.mul_f64s(splat(c), r), unit.sub_f64s(to, x));
+        unit.add_f64s(unit.add_f64s(unit.mul_f64s(splat(self.w), v), pull(self.c1, r1, own)), pull(self.c2, r2, social))
     }
 }
 
@@ -49,7 +55,6 @@ pub struct Inertia {
     inertia: Schedule,
     iterations: u64,
     weights: Weights,
-    per_particle: bool,
 }
 
 impl Inertia {
@@ -63,14 +68,14 @@ impl Inertia {
             inertia: settings.inertia.unwrap_or(Schedule::Constant(weights.w)),
             iterations: settings.iterations,
             weights,
-            per_particle: settings.random_numbers.unwrap_or_default() == RandomNumbers::PerParticle,
         }
     }
 }
 
 impl UpdateRule for Inertia {
-    fn rows(&self, dims: usize) -> usize {
-        if self.per_particle { 1 } else { dims }
+    /// None: the sweep that moves the particles draws their numbers as well.
+    fn rows(&self, _: usize) -> usize {
+        0
     }
 
     fn steer(&mut self, _: &mut Swarm, t: u64) -> Option<Weights> {

@@ -1,94 +1,26 @@
 //! The swarm against plain code, against itself, and against the environment model.
 
-use env_model::geometry::point_segment_distance;
-use env_model::{Point, Scene};
+use env_model::scene::Field;
+use env_model::{Scene, Shape};
+use rand::{Rng, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
 
+use super::reference::{Reference, reference};
 use super::*;
-use crate::choices::{RandomNumbers, Rule, VelocityLimit};
+use crate::choices::{NoLimit, RandomNumbers, Rule, Schedule, VelocityLimit};
 use crate::rules::rule;
-
-/// The digest's pseudo-code, one particle and one number at a time, with
-/// distances from the environment model instead of the terrain's shortcuts.
-struct Reference {
-    x: Vec<Vec<f64>>,
-    best: Vec<Vec<f64>>,
-    best_cost: Vec<f64>,
-    global: Vec<f64>,
-    global_cost: f64,
-}
-
-fn reference(settings: &Settings, world: &World, columns: &Columns, seed: u64) -> Reference {
-    let (n, m, h) = (settings.particles, settings.columns, columns.half_width());
-    let discs: Vec<(Point, f64)> =
-        world.obstacles().iter().map(|o| o.as_disc().unwrap()).map(|(c, r)| (columns.frame().to_local(c), r)).collect();
-    let cost = |y: &[f64]| -> f64 {
-        let at = |i: usize| Point::new(columns.x(i), if i == 0 || i > m { 0.0 } else { y[i - 1] });
-        (0..=m)
-            .map(|i| {
-                let (dx, dy) = (columns.spacing(), at(i + 1).y - at(i).y);
-                let hit = discs.iter().any(|&(c, r)| point_segment_distance(c, at(i), at(i + 1)) < r);
-                (dx * dx + dy * dy).sqrt() * if hit { settings.penalty } else { 1.0 }
-            })
-            .fold(0.0, |sum, f| sum + f)
-    };
-    let mut lanes = Lanes::default();
-    lanes.seed(&mut { seed }, n.next_multiple_of(BLOCK));
-
-    let stride = n.next_multiple_of(BLOCK);
-    let (mut first, mut second) = (vec![0.0; m * stride], vec![0.0; m * stride]);
-    lanes.uniform(&mut first);
-    let x: Vec<Vec<f64>> = (0..n).map(|i| (0..m).map(|d| (2.0 * first[d * stride + i] - 1.0) * h).collect()).collect();
-    let best_cost: Vec<f64> = x.iter().map(|y| cost(y)).collect();
-    let mut r = Reference { best: x.clone(), x, best_cost, global: vec![], global_cost: f64::INFINITY };
-    let mut v = vec![vec![0.0; m]; n];
-    let lead = |r: &mut Reference| {
-        for i in 0..n {
-            if r.best_cost[i] < r.global_cost {
-                r.global_cost = r.best_cost[i];
-                r.global = r.best[i].clone();
-            }
-        }
-    };
-    lead(&mut r);
-    let vmax = settings.max_speed(h);
-    for t in 0..settings.iterations {
-        let w = 0.9 + (0.4 - 0.9) * t as f64 / (settings.iterations - 1) as f64;
-        Arch::Scalar.dispatch(UniformPairs { lanes: &mut lanes, rows: [&mut first, &mut second] });
-        for i in 0..n {
-            #[allow(clippy::needless_range_loop, reason = "the transcription keeps the paper's indices")]
-            for d in 0..m {
-                let (r1, r2) = (first[d * stride + i], second[d * stride + i]);
-                let x = r.x[i][d];
-                v[i][d] = (w * v[i][d] + (2.0 * r1) * (r.best[i][d] - x)) + (2.0 * r2) * (r.global[d] - x);
-                v[i][d] = v[i][d].clamp(-vmax, vmax);
-                let y = x + v[i][d];
-                r.x[i][d] = y.clamp(-h, h);
-                if r.x[i][d] != y {
-                    v[i][d] = 0.0;
-                }
-            }
-            let c = cost(&r.x[i]);
-            if c < r.best_cost[i] {
-                r.best_cost[i] = c;
-                r.best[i] = r.x[i].clone();
-            }
-        }
-        lead(&mut r);
-    }
-    r
-}
 
 fn scene() -> Scene {
     Scene::from_toml("lu-sun-2012.toml", include_str!("../../../../configs/scenes/lu-sun-2012.toml")).unwrap()
 }
 
-fn run(arch: Arch, settings: &Settings, world: &World, columns: &Columns, seed: u64) -> Swarm {
+fn run(width: Width, settings: &Settings, world: &World, columns: &Columns, seed: u64) -> Swarm {
     let settings = &settings.clone().filled();
     let mut terrain = Terrain::default();
     terrain.compile(world, columns, settings.bounds.unwrap_or_default());
     let mut swarm = Swarm::default();
     let mut rule = rule(settings);
-    let ground = Ground { arch, settings, world, columns, terrain: &terrain };
+    let ground = Ground { width, settings, world, columns, terrain: &terrain };
     swarm.initialise(ground, rule.as_mut(), seed);
     for t in 0..settings.iterations {
         swarm.iterate(ground, rule.as_mut(), t);
@@ -96,21 +28,127 @@ fn run(arch: Arch, settings: &Settings, world: &World, columns: &Columns, seed: 
     swarm
 }
 
-#[test]
-fn agrees_bit_for_bit_with_a_plain_transcription() {
-    let scene = scene();
-    let world = World::new(&scene).unwrap();
-    for (particles, columns_count) in [(20, 20), (7, 5), (1, 1), (33, 40)] {
-        let settings = Settings { particles, columns: columns_count, iterations: 100, ..Settings::default() }.filled();
-        let columns = Columns::new(scene.start(), scene.goal(), columns_count);
-        for seed in 0..5 {
-            let swarm = run(Arch::new(), &settings, &world, &columns, seed);
-            let plain = reference(&settings, &world, &columns, seed);
-            assert_eq!(swarm.global_cost.to_bits(), plain.global_cost.to_bits());
-            assert_eq!(swarm.global, plain.global);
-            assert_eq!(swarm.best_cost[..particles], plain.best_cost);
+/// Every unit of this machine against the plain code.
+fn check_against_reference(settings: &Settings, world: &World, columns: &Columns, seed: u64) -> Reference {
+    let plain = reference(settings, world, columns, seed);
+    let (n, m) = (settings.particles, settings.columns);
+    for width in Width::all() {
+        let swarm = run(width, settings, world, columns, seed);
+        let name = width.name();
+        assert_eq!(swarm.global_cost.to_bits(), plain.global_cost.to_bits(), "{name}, {settings:?}");
+        assert_eq!(swarm.global, plain.global, "{name}, {settings:?}");
+        assert_eq!(swarm.best_cost[..n], plain.best_cost, "{name}, {settings:?}");
+        for (matrix, plain) in [(&swarm.x, &plain.x), (&swarm.v, &plain.v), (&swarm.best, &plain.best)] {
+            for (i, d) in (0..n).flat_map(|i| (0..m).map(move |d| (i, d))) {
+                assert_eq!(matrix[d * swarm.stride + i], plain[i][d], "{name}, particle {i}, {settings:?}");
+            }
         }
     }
+    plain
+}
+
+#[test]
+fn agrees_bit_for_bit_with_plain_code_on_the_papers_scene() {
+    let scene = scene();
+    let world = World::new(&scene).unwrap();
+    for (particles, count) in [(20, 20), (7, 5), (1, 1), (33, 40)] {
+        let settings = Settings { particles, columns: count, iterations: 100, ..Settings::default() }.filled();
+        let columns = Columns::new(scene.start(), scene.goal(), count);
+        for seed in 0..3 {
+            check_against_reference(&settings, &world, &columns, seed);
+        }
+    }
+}
+
+/// A scene of up to 30 discs, some with a field, some with capsules and polygons; its ends are free.
+fn random_scene(rng: &mut impl Rng) -> Scene {
+    let mut between = |low: f64, high: f64| low + (high - low) * ((rng.next_u64() >> 11) as f64 / 2f64.powi(53));
+    let point = |between: &mut dyn FnMut(f64, f64) -> f64| [between(-5.0, 5.0), between(-3.0, 3.0)];
+    let start = [between(-4.0, -2.0), between(-2.0, 2.0)];
+    let goal = [between(2.0, 4.0), between(-2.0, 2.0)];
+    let mut shapes: Vec<Shape> = Vec::new();
+    for _ in 0..between(0.0, 31.0) as usize {
+        shapes.push(Shape::Disc { centre: point(&mut between), radius: between(0.05, 0.6) });
+    }
+    if between(0.0, 1.0) < 0.3 {
+        for _ in 0..between(1.0, 3.0) as usize {
+            shapes.push(Shape::Capsule {
+                from: point(&mut between),
+                to: point(&mut between),
+                radius: between(0.0, 0.2),
+            });
+        }
+        for _ in 0..between(0.0, 3.0) as usize {
+            let ([x, y], r) = (point(&mut between), between(0.2, 0.8));
+            // An arrowhead: not convex.
+            shapes.push(Shape::Polygon(vec![[x - r, y - r], [x + r, y], [x - r, y + r], [x - 0.3 * r, y]]));
+        }
+    }
+    let robot_radius = if between(0.0, 1.0) < 0.5 { 0.09 } else { 0.0 };
+    let half = [between(4.2, 6.0), between(2.2, 4.0)];
+    let field = (between(0.0, 1.0) < 0.4).then(|| Field { min: half.map(|h| -h), max: half });
+    let mut scene =
+        Scene { name: "random".into(), unit: "m".into(), robot_radius, start, goal, field, obstacles: Vec::new() };
+    for shape in shapes {
+        scene.obstacles.push(shape.into());
+        let inflated = scene.inflated(scene.obstacles.len() - 1).unwrap();
+        if [scene.start(), scene.goal()].into_iter().any(|end| inflated.point_clearance(end) < 1e-3) {
+            scene.obstacles.pop();
+        }
+    }
+    scene
+}
+
+/// Ten thousand random swarms: whatever the settings, particles and columns, every
+/// unit gives the bits of the plain code.
+#[test]
+fn agrees_bit_for_bit_with_plain_code_on_random_swarms() {
+    let mut rng = Xoshiro256PlusPlus::seed_from_u64(1);
+    let (mut hidden, mut penalised, mut free) = (0, 0, 0);
+    for _ in 0..1250 {
+        let scene = random_scene(&mut rng);
+        let world = World::new(&scene).unwrap();
+        for _ in 0..8 {
+            let mut between = |low: f64, high: f64| low + (high - low) * (rng.next_u64() >> 11) as f64 / 2f64.powi(53);
+            // Small swarms are quick, and as good at finding faults; some are large.
+            let large = between(0.0, 1.0) < 0.1;
+            let speed = between(-0.5, 2.0);
+            let settings = Settings {
+                particles: between(1.0, if large { 71.0 } else { 25.0 }) as usize,
+                columns: between(1.0, if large { 41.0 } else { 12.0 }) as usize,
+                iterations: between(0.0, 4.0) as u64,
+                c1: Some(between(0.0, 3.0)),
+                c2: Some(between(0.0, 3.0)),
+                inertia: Some(Schedule::Linear { from: between(0.0, 1.2), to: between(0.0, 1.2) }),
+                velocity_limit: Some(if speed > 0.05 {
+                    VelocityLimit::Fraction(speed)
+                } else {
+                    VelocityLimit::Word(NoLimit::None)
+                }),
+                bounds: Some(BOUNDS[between(0.0, 6.0) as usize]),
+                random_numbers: Some(if between(0.0, 1.0) < 0.5 {
+                    RandomNumbers::PerDimension
+                } else {
+                    RandomNumbers::PerParticle
+                }),
+                penalty: between(1.0, 1000.0),
+                ..Settings::default()
+            }
+            .filled();
+            let columns = Columns::new(scene.start(), scene.goal(), settings.columns);
+            let seed = (between(0.0, 1.0) * 1e9) as u64;
+            let plain = check_against_reference(&settings, &world, &columns, seed);
+            // Heights lie within H at first, so that a path is at most √(1 + ((m + 1)/2)²) L long.
+            for &cost in &plain.best_cost {
+                let longest = columns.frame().length() * (2.0 + settings.columns as f64);
+                penalised += usize::from(cost > longest);
+                free += usize::from(cost <= longest);
+            }
+            let h = columns.half_width();
+            hidden += plain.x.iter().filter(|y| y.iter().any(|y| y.abs() > h)).count();
+        }
+    }
+    assert!(hidden > 1000 && penalised > 10_000 && free > 10_000, "{hidden} outside, {penalised} hit, {free} free");
 }
 
 const BOUNDS: [Bounds; 6] =
@@ -123,11 +161,17 @@ fn vector_width_changes_nothing() {
     let world = World::new(&scene).unwrap();
     let columns = Columns::new(scene.start(), scene.goal(), 20);
     let check = |settings: &Settings| {
-        let wide = run(Arch::new(), settings, &world, &columns, 3);
-        let narrow = run(Arch::Scalar, settings, &world, &columns, 3);
-        assert_eq!(wide.x, narrow.x, "{settings:?}");
-        assert_eq!(wide.best, narrow.best);
-        assert_eq!(wide.global_cost.to_bits(), narrow.global_cost.to_bits());
+        let narrow = run(Width::Scalar, settings, &world, &columns, 3);
+        for width in Width::all() {
+            let wide = run(width, settings, &world, &columns, 3);
+            assert_eq!(wide.best_cost, narrow.best_cost, "{}, {settings:?}", width.name());
+            assert_eq!(wide.global_cost.to_bits(), narrow.global_cost.to_bits());
+            for d in 0..wide.dims {
+                let row = d * wide.stride..d * wide.stride + wide.particles;
+                assert_eq!(wide.x[row.clone()], narrow.x[row.clone()], "{}, {settings:?}", width.name());
+                assert_eq!(wide.best[row.clone()], narrow.best[row]);
+            }
+        }
     };
     for bounds in BOUNDS {
         for topology in TOPOLOGIES {
@@ -154,11 +198,11 @@ fn a_used_swarm_is_as_good_as_new() {
     let columns = Columns::new(scene.start(), scene.goal(), 9);
     for rule_name in [Rule::Inertia, Rule::Quantum, Rule::Spso2011, Rule::Comprehensive] {
         let settings = Settings { rule: rule_name, columns: 9, iterations: 40, ..Settings::default() }.filled();
-        let fresh = run(Arch::new(), &settings, &world, &columns, 8);
+        let fresh = run(Width::widest(), &settings, &world, &columns, 8);
         let mut terrain = Terrain::default();
         terrain.compile(&world, &columns, settings.bounds.unwrap_or_default());
         let ground =
-            Ground { arch: Arch::new(), settings: &settings, world: &world, columns: &columns, terrain: &terrain };
+            Ground { width: Width::widest(), settings: &settings, world: &world, columns: &columns, terrain: &terrain };
         let (mut swarm, mut rule) = (Swarm::default(), rule(&settings));
         for seed in [7, 8] {
             swarm.initialise(ground, rule.as_mut(), seed);
@@ -179,7 +223,7 @@ fn invisible_walls_hide_what_is_outside() {
     let world = World::new(&scene).unwrap();
     let columns = Columns::new(scene.start(), scene.goal(), 20);
     let settings = Settings { rule: Rule::Comprehensive, iterations: 12, ..Settings::default() };
-    let swarm = run(Arch::new(), &settings, &world, &columns, 1);
+    let swarm = run(Width::widest(), &settings, &world, &columns, 1);
     let h = columns.half_width();
     let inside = |i: &usize| (0..swarm.dims).all(|d| (-h..=h).contains(&swarm.x[d * swarm.stride + i]));
     let seen = (0..swarm.particles).filter(inside).count();
@@ -191,8 +235,8 @@ fn invisible_walls_hide_what_is_outside() {
     }
 }
 
-/// Costs of the last pass against the environment model's own distances,
-/// with every shape, a field and every rule of motion.
+/// Costs of personal bests against the environment model's own distances, with
+/// every shape, a field, every border and every neighbourhood.
 #[test]
 fn fitness_counts_fields_capsules_and_polygons() {
     let file = include_str!("../../../../configs/scenes/mixed-shapes.toml");
@@ -205,15 +249,15 @@ fn fitness_counts_fields_capsules_and_polygons() {
                 bounds: Some(bounds),
                 topology: Some(topology),
                 columns: 12,
-                iterations: 30,
+                iterations: 6,
                 velocity_limit: Some(VelocityLimit::Fraction(2.0)),
                 ..Settings::default()
             };
             let columns = Columns::new(scene.start(), scene.goal(), settings.columns);
-            let swarm = run(Arch::new(), &settings, &world, &columns, 9);
+            let swarm = run(Width::widest(), &settings, &world, &columns, 9);
             let mut path = Vec::new();
-            for i in (0..swarm.particles).filter(|&i| swarm.cost[i].is_finite()) {
-                let heights: Vec<f64> = (0..swarm.dims).map(|d| swarm.x[d * swarm.stride + i]).collect();
+            for i in (0..swarm.particles).filter(|&i| swarm.best_cost[i].is_finite()) {
+                let heights: Vec<f64> = (0..swarm.dims).map(|d| swarm.best[d * swarm.stride + i]).collect();
                 columns.write_path(&heights, &mut path);
                 let cost: f64 = path
                     .windows(2)
@@ -226,7 +270,7 @@ fn fitness_counts_fields_capsules_and_polygons() {
                     })
                     .sum();
                 // Lengths in the world frame and in the local one differ by their rounding.
-                assert!((swarm.cost[i] / cost - 1.0).abs() < 1e-12, "{bounds:?}, {topology:?}, particle {i}");
+                assert!((swarm.best_cost[i] / cost - 1.0).abs() < 1e-12, "{bounds:?}, {topology:?}, particle {i}");
             }
         }
     }
