@@ -24,10 +24,13 @@
 //! capsules and convex polygons are one convex piece each; a polygon with
 //! reflex corners is one piece a side.
 
+mod arc;
+mod banded;
 mod cuts;
 mod free;
 mod funnel;
 mod halfplane;
+mod interior;
 mod piece;
 mod polish;
 mod program;
@@ -36,6 +39,7 @@ mod session;
 mod settings;
 mod smooth;
 mod strip;
+mod structured;
 
 pub use refine::Qp;
-pub use settings::{Classes, Method, Model, Objective, Settings};
+pub use settings::{Classes, Method, Model, Objective, Settings, Solver};
