@@ -33,8 +33,8 @@ pub(crate) struct Pass {
     pub(crate) room: f64,
     /// ∂c/∂ηᵢ and ∂c/∂ηᵢ₊₁.
     pub(crate) gradient: (f64, f64),
-    /// −∂²c/∂μ² ≥ 0.
-    pub(crate) bend: f64,
+    /// Radius of the arc where the segment rolls on it, 0 beyond its ends.
+    pub(crate) rolling: f64,
 }
 
 impl Arc {
@@ -50,14 +50,14 @@ impl Arc {
         let reach = sigma * self.radius * inverse;
         let free = self.centre.0 - reach * slope;
         let [low, high] = self.ends;
-        let (s, height, bend) = if free < low.0 {
+        let (s, height, rolling) = if free < low.0 {
             (low.0, low.1, 0.0)
         } else if free > high.0 {
             (high.0, high.1, 0.0)
         } else {
-            (free, self.centre.1 + reach, self.radius * inverse * inverse * inverse)
+            (free, self.centre.1 + reach, self.radius)
         };
-        Pass { room: sigma * (left + s * slope - height), gradient: (sigma * (1.0 - s), sigma * s), bend }
+        Pass { room: sigma * (left + s * slope - height), gradient: (sigma * (1.0 - s), sigma * s), rolling }
     }
 }
 

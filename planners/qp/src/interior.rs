@@ -25,11 +25,17 @@ use crate::arc::{Arc, Pass};
 use crate::banded::Banded;
 use crate::program::Quadratic;
 
-/// Newton steps before it gives up; 8 to 15 are usual.
-const MOST_STEPS: usize = 80;
+/// Newton steps before it gives up; 4 to 15 are usual.
+const MOST_STEPS: usize = 100;
+
+/// Newton steps before feasibility is looked into, and half as far a turn allowed.
+const PATIENCE: usize = 25;
 
 /// Share of the way to the boundary that a step may go.
 const TO_BOUNDARY: f64 = 0.995;
+
+/// The farthest that a slope may turn in a step, as a share of √(1 + μ²): beyond, curvatures say nothing.
+const TURN: f64 = 1.0;
 
 /// First slacks are at least this, in Δ: what a start between the cuts violates.
 const LEAST_SLACK: f64 = 0.02;
@@ -37,11 +43,18 @@ const LEAST_SLACK: f64 = 0.02;
 /// First products s_k z_k.
 const FIRST_PRODUCT: f64 = 2e-3;
 
-/// Stationarity: largest entry of ∇f − Jᵀz, where ∇f is of the order of 1.
+/// Products are aimed no lower than this times the square of what the other conditions lack:
+/// complementarity must not be met long before them.
+const FLOOR: f64 = 1e-2;
+
+/// Stationarity: largest entry of ∇f − Jᵀz, relative to that of ∇f or 1.
 const STATIONARY: f64 = 1e-9;
 
 /// Heights within which infeasibility is proved, in lengths of start → goal.
 const HORIZON: f64 = 100.0;
+
+/// Weight of ½‖η − η₀‖² beside ½‖min(c, 0)‖² in the search for the least violation.
+const ANCHOR: f64 = 1e-10;
 
 /// f.
 #[derive(Debug, Clone, Copy)]
@@ -50,6 +63,8 @@ pub(crate) enum Target<'a> {
     Length,
     /// ½ηᵀPη + qᵀη of half-bandwidth 2, of the order of 1.
     Quadratic(&'a Quadratic),
+    /// ANCHOR·½‖η − η₀‖².
+    Anchor,
 }
 
 /// How a solve ended.
@@ -74,7 +89,7 @@ struct Row {
     dual: f64,
     /// p.
     error: f64,
-    /// σμ − δ, less what the predictor was told.
+    /// σμ − δ; 0 in the predictor.
     aim: f64,
     step: (f64, f64),
 }
@@ -84,12 +99,20 @@ struct Row {
 pub(crate) struct Interior {
     /// Start, heights, goal, in Δ; both ends 0.
     pub(crate) heights: Vec<f64>,
+    pub(crate) steps: usize, //DBG
+    /// η₀.
+    first: Vec<f64>,
     rows: Vec<Row>,
     /// 1/√(1 + μ²) a segment.
     inverse: Vec<f64>,
-    /// ∇f − Jᵀz, ends included.
-    residual: Vec<f64>,
+    /// τ a segment.
+    tangents: Vec<f64>,
+    /// κ a segment.
+    curvatures: Vec<f64>,
+    /// ∇f, ends included, as in the next two.
     gradient: Vec<f64>,
+    /// ∇f − Jᵀz.
+    residual: Vec<f64>,
     step: Vec<f64>,
     matrix: Banded,
 }
@@ -106,7 +129,7 @@ impl Interior {
 
     /// Adds a constraint.
     pub(crate) fn add(&mut self, arc: Arc) {
-        let pass = Pass { room: 0.0, gradient: (0.0, 0.0), bend: 0.0 };
+        let pass = Pass { room: 0.0, gradient: (0.0, 0.0), rolling: 0.0 };
         self.rows.push(Row { arc, pass, slack: 0.0, dual: 0.0, error: 0.0, aim: 0.0, step: (0.0, 0.0) });
     }
 
@@ -116,7 +139,7 @@ impl Interior {
         arc.pass(left, right, 1.0 / (1.0 + (right - left) * (right - left)).sqrt())
     }
 
-    /// Minimises from the present heights, until sᵀz ≤ `gap`·max(f, 1), c ≥ −`within` and stationarity;
+    /// Minimises from the present heights, until sᵀz ≤ `gap`·max(|f|, 1), |p| ≤ `within` and stationarity;
     /// asks `in_time` before every step.
     pub(crate) fn minimise(
         &mut self,
@@ -125,55 +148,131 @@ impl Interior {
         within: f64,
         mut in_time: impl FnMut() -> bool,
     ) -> Outcome {
+        self.first.clone_from(&self.heights);
+        self.set_out();
+        let mut turn = TURN;
+        for steps in 1..=MOST_STEPS {
+            self.steps = steps; //DBG
+            if !in_time() {
+                return Outcome::Stopped;
+            }
+            let (value, product) = self.evaluate(target);
+            let error = self.rows.iter().fold(0.0, |m: f64, row| m.max(row.error.abs()));
+            let (largest, residual) = (self.largest(&self.gradient).max(1.0), self.largest(&self.residual));
+            if !(value + product + residual).is_finite() {
+                return Outcome::Failed;
+            }
+            if product <= gap * value.abs().max(1.0) && error <= within && residual <= STATIONARY * largest {
+                return Outcome::Optimal;
+            }
+            if self.infeasible(within) {
+                return Outcome::Infeasible;
+            }
+            if steps % PATIENCE == 0 {
+                if self.least_violation(within) {
+                    return Outcome::Infeasible;
+                }
+                turn *= 0.5;
+                self.set_out();
+                continue;
+            }
+            let lack = error.max(residual / self.rows.iter().fold(largest, |m, row| m.max(row.dual)));
+            if !self.step(target, product, FLOOR * lack * lack, turn) {
+                return Outcome::Failed;
+            }
+        }
+        Outcome::Failed
+    }
+
+    /// Slacks, multipliers and τ for the present heights.
+    fn set_out(&mut self) {
+        self.tangents.clear();
+        self.tangents.resize(self.heights.len() - 1, 0.0);
         for i in 0..self.rows.len() {
             let room = self.pass(&self.rows[i].arc).room;
             let row = &mut self.rows[i];
             row.slack = room.max(LEAST_SLACK);
             row.dual = FIRST_PRODUCT / row.slack;
         }
-        for _ in 0..MOST_STEPS {
-            if !in_time() {
-                return Outcome::Stopped;
-            }
-            let (value, product) = self.evaluate(target);
-            let error = self.rows.iter().fold(0.0, |m: f64, row| m.max(row.error.abs()));
-            let inner = 1..self.heights.len() - 1;
-            let residual = self.residual[inner.clone()].iter().fold(0.0, |m: f64, r| m.max(r.abs()));
-            if !(value + product + residual).is_finite() {
-                return Outcome::Failed;
-            }
-            if product <= gap * value.abs().max(1.0) && error <= within && residual <= STATIONARY {
-                return Outcome::Optimal;
-            }
-            if self.infeasible() {
-                return Outcome::Infeasible;
-            }
-            self.assemble(target);
-            if !self.matrix.factor() {
-                return Outcome::Failed;
-            }
-            let mean = product / self.rows.len().max(1) as f64;
-            if !self.rows.is_empty() {
-                self.direction(|_| 0.0);
-                let (primal, dual) = self.reach(1.0);
-                let affine: f64 =
-                    self.rows.iter().map(|r| (r.slack + primal * r.step.0) * (r.dual + dual * r.step.1)).sum();
-                let share = affine / product;
-                let centre = share * share * share * mean;
-                self.direction(|row| centre - row.step.0 * row.step.1);
-            } else {
-                self.direction(|_| 0.0);
-            }
-            let (primal, dual) = self.reach(TO_BOUNDARY);
-            for i in inner {
-                self.heights[i] += primal * self.step[i];
-            }
-            for row in &mut self.rows {
-                row.slack += primal * row.step.0;
-                row.dual += dual * row.step.1;
-            }
+    }
+
+    /// One predictor and corrector step; false when the matrix cannot be factored.
+    fn step(&mut self, target: Target<'_>, product: f64, floor: f64, turn: f64) -> bool {
+        self.assemble(target, |row| row.dual / row.slack);
+        if !self.matrix.factor() {
+            return false;
         }
-        Outcome::Failed
+        self.direction(|_| 0.0);
+        if !self.rows.is_empty() {
+            let reach = self.reach(1.0);
+            let affine: f64 =
+                self.rows.iter().map(|r| (r.slack + reach * r.step.0) * (r.dual + reach * r.step.1)).sum();
+            let share = affine / product;
+            let centre = (share * share * share * product / self.rows.len() as f64).max(floor);
+            self.direction(|row| centre - row.step.0 * row.step.1);
+        }
+        let reach = self.reach(TO_BOUNDARY).min(turn / self.turn());
+        self.go(reach);
+        for row in &mut self.rows {
+            row.slack += reach * row.step.0;
+            row.dual += reach * row.step.1;
+        }
+        true
+    }
+
+    /// Heights and τ along the step.
+    fn go(&mut self, reach: f64) {
+        for (i, tangent) in self.tangents.iter_mut().enumerate() {
+            let slope = self.heights[i + 1] - self.heights[i];
+            let change = self.curvatures[i] * (self.step[i + 1] - self.step[i]);
+            *tangent = (*tangent + reach * (slope * self.inverse[i] + change - *tangent)).clamp(-1.0, 1.0);
+        }
+        for (height, step) in self.heights.iter_mut().zip(&self.step) {
+            *height += reach * step;
+        }
+    }
+
+    /// The largest turn of a slope in the step, relative to √(1 + μ²).
+    fn turn(&self) -> f64 {
+        let turns = self.step.windows(2).zip(&self.inverse).map(|(w, inverse)| (w[1] - w[0]).abs() * inverse);
+        turns.fold(0.0, f64::max)
+    }
+
+    /// The largest entry of a vector at the inner heights.
+    fn largest(&self, vector: &[f64]) -> f64 {
+        vector[1..self.heights.len() - 1].iter().fold(0.0, |m: f64, v| m.max(v.abs()))
+    }
+
+    /// Whether the heights of least ½‖min(c, 0)‖² prove that none are feasible: there z = −min(c, 0) has Jᵀz ≈ 0.
+    /// Leaves the heights there.
+    fn least_violation(&mut self, within: f64) -> bool {
+        self.heights.clone_from(&self.first);
+        self.tangents.fill(0.0);
+        for _ in 0..PATIENCE {
+            for i in 0..self.rows.len() {
+                let room = self.pass(&self.rows[i].arc).room;
+                self.rows[i].dual = (-room).max(0.0);
+                self.rows[i].slack = room;
+            }
+            // Only for passes, curvatures and Jᵀz: f has no part in it.
+            self.evaluate(Target::Length);
+            if self.infeasible(within) {
+                return true;
+            }
+            self.assemble(Target::Anchor, |row| if row.dual > 0.0 { 1.0 } else { 0.0 });
+            if !self.matrix.factor() {
+                return false;
+            }
+            self.step.clear();
+            self.step.extend(self.heights.iter().zip(&self.first).map(|(y, first)| ANCHOR * (first - y)));
+            for (step, (gradient, residual)) in self.step.iter_mut().zip(self.gradient.iter().zip(&self.residual)) {
+                *step += gradient - residual;
+            }
+            self.solve_step();
+            let reach = (TURN / self.turn()).min(1.0);
+            self.go(reach);
+        }
+        false
     }
 
     /// Passes, errors, ∇f and residual at the present heights. Returns f and sᵀz.
@@ -196,6 +295,7 @@ impl Interior {
                 length
             }
             Target::Quadratic(quadratic) => quadratic.evaluate(&heights[1..n - 1], &mut gradient[1..n - 1]),
+            Target::Anchor => unreachable!("never evaluated"),
         };
         residual.clone_from(gradient);
         let mut product = 0.0;
@@ -210,24 +310,24 @@ impl Interior {
         (value, product)
     }
 
-    /// Whether the multipliers prove that nothing within the horizon is feasible: by concavity
-    /// Σ z_k c_k(w) ≤ zᵀc(η) + (Jᵀz)·(w − η) for every w, and feasible w need ≥ 0.
-    fn infeasible(&self) -> bool {
-        let n = self.heights.len();
-        let horizon = HORIZON * (n - 1) as f64;
-        let sum: f64 = self.rows.iter().map(|row| row.dual * row.pass.room).sum();
-        if sum >= 0.0 {
-            return false;
-        }
-        let pull: f64 =
-            (1..n - 1).map(|i| (self.gradient[i] - self.residual[i]).abs() * (horizon + self.heights[i].abs())).sum();
-        sum + pull < 0.0
+    /// Whether the multipliers prove that nothing within the horizon is feasible to `within`: by concavity
+    /// Σ z_k c_k(w) ≤ zᵀc(η) + (Jᵀz)·(w − η) for every w.
+    fn infeasible(&self, within: f64) -> bool {
+        let inner = 1..self.heights.len() - 1;
+        let horizon = HORIZON * inner.end as f64;
+        let sum: f64 = self.rows.iter().map(|row| row.dual * (row.pass.room + within)).sum();
+        let pull = |i: usize| (self.gradient[i] - self.residual[i]).abs() * (horizon + self.heights[i].abs());
+        sum < 0.0 && sum + inner.map(pull).sum::<f64>() < 0.0
     }
 
-    /// ∇²f − Σ z ∇²c + Jᵀ(Z/S)J over the inner heights.
-    fn assemble(&mut self, target: Target<'_>) {
-        let Self { heights, rows, inverse, matrix, .. } = self;
+    /// ∇²f − Σ z ∇²c + Jᵀ W J over the inner heights; W has `weight` of each row.
+    fn assemble(&mut self, target: Target<'_>, weight: impl Fn(&Row) -> f64) {
+        let Self { heights, rows, inverse, tangents, curvatures, matrix, .. } = self;
         let n = heights.len();
+        curvatures.clear();
+        curvatures.extend(heights.windows(2).zip(inverse.iter().zip(tangents)).map(|(w, (inverse, tangent))| {
+            (1.0 - *tangent * (w[1] - w[0]) * inverse) * inverse
+        }));
         matrix.clear(n);
         let band = &mut matrix.rows;
         let mut couple = |i: usize, left: f64, across: f64, right: f64| {
@@ -236,31 +336,29 @@ impl Interior {
             band[i + 1][0] += right;
         };
         if matches!(target, Target::Length) {
-            for (i, inverse) in inverse.iter().enumerate() {
-                let curvature = inverse * inverse * inverse;
+            for (i, &curvature) in curvatures.iter().enumerate() {
                 couple(i, curvature, -curvature, curvature);
             }
         }
         for row in rows {
-            let (a, b) = row.pass.gradient;
-            let (weight, bend) = (row.dual / row.slack, row.dual * row.pass.bend);
-            couple(row.arc.segment, weight * a * a + bend, weight * a * b - bend, weight * b * b + bend);
+            let (i, (a, b), weight) = (row.arc.segment, row.pass.gradient, weight(row));
+            let bend = row.dual * row.pass.rolling * curvatures[i];
+            couple(i, weight * a * a + bend, weight * a * b - bend, weight * b * b + bend);
         }
-        if let Target::Quadratic(quadratic) = target {
-            quadratic.add_to(&mut band[1..n - 1]);
+        match target {
+            Target::Length => {}
+            Target::Quadratic(quadratic) => quadratic.add_to(&mut band[1..n - 1]),
+            Target::Anchor => band.iter_mut().for_each(|row| row[0] += ANCHOR),
         }
         // Start and goal are fixed.
         band[0] = [1.0, 0.0, 0.0];
         band[1][1] = 0.0;
+        band[2][2] = 0.0;
         band[n - 1] = [1.0, 0.0, 0.0];
-        if n > 2 {
-            band[2][2] = 0.0;
-        }
     }
 
     /// The Newton step for products `aim`, which may use the step before.
     fn direction(&mut self, aim: impl Fn(&Row) -> f64) {
-        let n = self.heights.len();
         self.step.clear();
         self.step.extend(self.gradient.iter().map(|g| -g));
         for row in &mut self.rows {
@@ -269,9 +367,7 @@ impl Interior {
             self.step[row.arc.segment] += pull * row.pass.gradient.0;
             self.step[row.arc.segment + 1] += pull * row.pass.gradient.1;
         }
-        self.step[0] = 0.0;
-        self.step[n - 1] = 0.0;
-        self.matrix.solve(&mut self.step);
+        self.solve_step();
         for row in &mut self.rows {
             let i = row.arc.segment;
             let slack = row.pass.gradient.0 * self.step[i] + row.pass.gradient.1 * self.step[i + 1] + row.error;
@@ -279,17 +375,24 @@ impl Interior {
         }
     }
 
-    /// The largest steps ≤ 1 of slacks and multipliers that keep them positive, when `share` of the way to 0 is allowed.
-    fn reach(&self, share: f64) -> (f64, f64) {
-        let (mut primal, mut dual) = (1.0_f64, 1.0_f64);
+    /// The step from its right-hand side; start and goal stay.
+    fn solve_step(&mut self) {
+        let last = self.step.len() - 1;
+        self.step[0] = 0.0;
+        self.step[last] = 0.0;
+        self.matrix.solve(&mut self.step);
+    }
+
+    /// The largest step ≤ 1 that keeps slacks and multipliers positive when `share` of the way to 0 is allowed.
+    fn reach(&self, share: f64) -> f64 {
+        let mut reach = 1.0_f64;
         for row in &self.rows {
-            if row.step.0 < 0.0 {
-                primal = primal.min(-share * row.slack / row.step.0);
-            }
-            if row.step.1 < 0.0 {
-                dual = dual.min(-share * row.dual / row.step.1);
+            for (value, step) in [(row.slack, row.step.0), (row.dual, row.step.1)] {
+                if step < 0.0 {
+                    reach = reach.min(-share * value / step);
+                }
             }
         }
-        (primal, dual)
+        reach
     }
 }
