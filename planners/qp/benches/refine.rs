@@ -6,7 +6,7 @@ use std::hint::black_box;
 use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
 use env_model::{Scene, World};
 use planner_api::{Plan, Planner, Problem, Refiner, Run};
-use planner_catalogue::build_str;
+use planner_pso::Pso;
 use planner_qp::{Qp, Settings, Solver};
 
 const SOLVERS: [(&str, Solver); 2] = [("clarabel", Solver::Clarabel), ("structured", Solver::Structured)];
@@ -20,12 +20,18 @@ fn paper() -> Scene {
     Scene::from_toml(&path, &text).expect("a valid scene")
 }
 
+/// The swarm of `pso-qp`.
+fn swarm() -> Pso {
+    let settings = planner_pso::Settings { side_classes: 256, ..planner_pso::Settings::default() };
+    Pso::new(settings).expect("valid settings")
+}
+
 /// The refinement alone.
 fn qp(c: &mut Criterion) {
     let scene = paper();
     let world = World::new(&scene).expect("a valid scene");
     let problem = Problem::new(&world, scene.start(), scene.goal()).expect("free ends");
-    let mut swarm = build_str("pso", "side_classes = 256").expect("valid settings").planner;
+    let mut swarm = swarm();
     let plans: Vec<Plan> =
         (0..SEEDS).map(|seed| swarm.plan(&problem, &mut Run::new(seed)).expect("a plan").0).collect();
     let mut group = c.benchmark_group("qp");
@@ -49,14 +55,16 @@ fn whole(c: &mut Criterion) {
     let world = World::new(&scene).expect("a valid scene");
     let problem = Problem::new(&world, scene.start(), scene.goal()).expect("free ends");
     let mut group = c.benchmark_group("pso-qp");
-    for (name, _) in SOLVERS {
-        let settings = format!("qp = {{ solver = \"{name}\" }}");
-        let mut planner: Box<dyn Planner> = build_str("pso-qp", &settings).expect("valid settings").planner;
+    for (name, solver) in SOLVERS {
+        let mut swarm = swarm();
+        let mut qp = Qp::new(Settings { solver, ..Settings::default() }).expect("valid settings");
         let (mut plan, mut seed) = (Plan::new(), 0);
         group.bench_function(name, |b| {
             b.iter(|| {
                 seed += 1;
-                planner.plan_into(black_box(&problem), &mut Run::new(seed), &mut plan)
+                let mut run = Run::new(seed);
+                swarm.plan_into(black_box(&problem), &mut run, &mut plan).expect("a plan");
+                qp.refine(&problem, &mut run, &mut plan)
             });
         });
     }

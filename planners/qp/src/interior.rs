@@ -99,7 +99,6 @@ struct Row {
 pub(crate) struct Interior {
     /// Start, heights, goal, in Δ; both ends 0.
     pub(crate) heights: Vec<f64>,
-    pub(crate) steps: usize, //DBG
     /// η₀.
     first: Vec<f64>,
     rows: Vec<Row>,
@@ -152,7 +151,6 @@ impl Interior {
         self.set_out();
         let mut turn = TURN;
         for steps in 1..=MOST_STEPS {
-            self.steps = steps; //DBG
             if !in_time() {
                 return Outcome::Stopped;
             }
@@ -325,9 +323,12 @@ impl Interior {
         let Self { heights, rows, inverse, tangents, curvatures, matrix, .. } = self;
         let n = heights.len();
         curvatures.clear();
-        curvatures.extend(heights.windows(2).zip(inverse.iter().zip(tangents)).map(|(w, (inverse, tangent))| {
-            (1.0 - *tangent * (w[1] - w[0]) * inverse) * inverse
-        }));
+        curvatures.extend(
+            heights
+                .windows(2)
+                .zip(inverse.iter().zip(tangents))
+                .map(|(w, (inverse, tangent))| (1.0 - *tangent * (w[1] - w[0]) * inverse) * inverse),
+        );
         matrix.clear(n);
         let band = &mut matrix.rows;
         let mut couple = |i: usize, left: f64, across: f64, right: f64| {

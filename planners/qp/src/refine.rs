@@ -144,7 +144,8 @@ impl Task<'_> {
     fn on_columns(&mut self, session: &mut Session<'_, '_>, reference: &mut Vec<Point>) -> Polish {
         let (settings, world) = (self.settings, self.problem.world);
         let columns = Columns::new(self.problem.start, self.problem.goal, self.count());
-        let strip = Strip::new(world, columns, self.problem.start, self.problem.goal);
+        let limit = if settings.objective == Objective::Shorten { session.cost } else { f64::INFINITY };
+        let strip = Strip::new(world, columns, self.problem.start, self.problem.goal, limit);
         let Some(classes) = self.classes(&strip, session) else { return Polish::Stopped };
         let smooth = settings.objective == Objective::Smooth;
         let mut kept_own = classes.iter().any(|c| c.own && c.bound.is_finite());

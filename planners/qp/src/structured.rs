@@ -61,9 +61,8 @@ pub(crate) fn polish_structured(
             }
             far
         });
-        let outcome = interior.minimise(target, settings.tolerance, within, || session.in_time());
+        let outcome = interior.minimise(target, 0.1 * settings.tolerance, within, || session.in_time());
         session.count();
-        if std::env::var("DBG").is_ok() { eprintln!("  outcome {outcome:?} steps {}", interior.steps); } //DBG
         let kept = outcome == Outcome::Optimal && arcs.iter().all(|arc| interior.pass(arc).room >= -within);
         if kept {
             heights.clear();
