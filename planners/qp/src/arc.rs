@@ -19,11 +19,12 @@ use crate::strip::Strip;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Arc {
     pub(crate) segment: usize,
-    sigma: f64,
-    centre: (f64, f64),
-    radius: f64,
+    /// σ.
+    pub(crate) sigma: f64,
+    pub(crate) centre: (f64, f64),
+    pub(crate) radius: f64,
     /// (s, h(s)) at both ends.
-    ends: [(f64, f64); 2],
+    pub(crate) ends: [(f64, f64); 2],
 }
 
 /// How a segment passes an arc.
@@ -39,8 +40,15 @@ pub(crate) struct Pass {
 
 impl Arc {
     /// A height that the polyline keeps to at `s` of a segment.
-    fn point(segment: usize, side: Side, s: f64, height: f64) -> Self {
+    pub(crate) fn point(segment: usize, side: Side, s: f64, height: f64) -> Self {
         Self { segment, sigma: side.sign(), centre: (s, height), radius: 0.0, ends: [(s, height); 2] }
+    }
+
+    /// What a segment meets of a disc; `None` when the disc lies beside it.
+    pub(crate) fn disc(segment: usize, side: Side, (a, b): (f64, f64), radius: f64) -> Option<Self> {
+        let (sigma, low, high) = (side.sign(), (a - radius).max(0.0), (a + radius).min(1.0));
+        let end = |s: f64| (s, b + sigma * (radius * radius - (s - a) * (s - a)).max(0.0).sqrt());
+        (low <= high).then(|| Self { segment, sigma, centre: (a, b), radius, ends: [end(low), end(high)] })
     }
 
     /// Where the segment from `left` to `right` passes; `inverse` is 1/√(1 + μ²).
@@ -91,24 +99,10 @@ pub(crate) fn class_arcs(strip: &Strip, sides: &[Side], arcs: &mut Vec<Arc>) -> 
 
 /// The arcs of `piece` between the columns at `x`.
 fn piece_arcs(piece: &Piece, side: Side, segment: usize, x: (f64, f64), arcs: &mut Vec<Arc>) {
-    let (sigma, r, spacing) = (side.sign(), piece.radius, x.1 - x.0);
+    let spacing = x.1 - x.0;
     let place = |x_at: f64| (x_at - x.0) / spacing;
     for corner in &piece.corners {
-        let (low, high) = ((corner.x - r).max(x.0), (corner.x + r).min(x.1));
-        if low > high {
-            continue;
-        }
-        let end = |x: f64| {
-            let dx = x - corner.x;
-            (place(x), (corner.y + sigma * (r * r - dx * dx).max(0.0).sqrt()) / spacing)
-        };
-        arcs.push(Arc {
-            segment,
-            sigma,
-            centre: (place(corner.x), corner.y / spacing),
-            radius: r / spacing,
-            ends: [end(low), end(high)],
-        });
+        arcs.extend(Arc::disc(segment, side, (place(corner.x), corner.y / spacing), piece.radius / spacing));
     }
     if piece.corners.len() > 1 {
         for x_end in [x.0, x.1] {

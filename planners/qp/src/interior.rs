@@ -267,10 +267,19 @@ impl Interior {
                 *step += gradient - residual;
             }
             self.solve_step();
-            let reach = (TURN / self.turn()).min(1.0);
+            let (mut reach, before) = ((TURN / self.turn()).min(1.0), self.violation());
             self.go(reach);
+            while self.violation() > before && reach > 1e-3 {
+                reach *= 0.5;
+                self.go(-reach);
+            }
         }
         false
+    }
+
+    /// ‖min(c, 0)‖².
+    fn violation(&self) -> f64 {
+        self.rows.iter().map(|row| self.pass(&row.arc).room.min(0.0)).map(|room| room * room).sum()
     }
 
     /// Passes, errors, ∇f and residual at the present heights. Returns f and sᵀz.
@@ -397,3 +406,6 @@ impl Interior {
         reach
     }
 }
+
+#[cfg(test)]
+mod tests;
