@@ -1,6 +1,6 @@
 //! Cholesky factors of symmetric matrices of half-bandwidth 2.
 //!
-//! A = LDLᵀ with unit lower L in O(n): Golub & Van Loan, *Matrix Computations*
+//! A = `LDLᵀ` with unit lower L in O(n): Golub & Van Loan, *Matrix Computations*
 //! (4th ed., 2013), §4.3.5.
 
 /// A symmetric matrix of half-bandwidth 2, then its factors.
@@ -77,8 +77,8 @@ mod tests {
             let mut a = Banded::default();
             a.clear(n);
             for (i, row) in a.rows.iter_mut().enumerate() {
-                for k in 0..=i.min(2) {
-                    row[k] = entry(i, i - k);
+                for (k, v) in row.iter_mut().enumerate().take(i + 1) {
+                    *v = entry(i, i - k);
                 }
             }
             let expected: Vec<f64> = (0..n).map(|i| 1.0 - 0.5 * i as f64).collect();

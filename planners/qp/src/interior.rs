@@ -1,25 +1,36 @@
 //! A primal-dual interior point for heights on columns: the structured solver.
 //!
-//! min f(η) subject to c_k(η) ≥ 0, f the length Σ √(1 + (ηᵢ₊₁ − ηᵢ)²) or a
-//! quadratic of half-bandwidth 2, c_k the room that a segment leaves an arc
+//! min f(η) subject to cₖ(η) ≥ 0, f the length Σ √(1 + (ηᵢ₊₁ − ηᵢ)²) or a
+//! quadratic of half-bandwidth 2, cₖ the room that a segment leaves an arc
 //! (`arc`). With slacks s = c(η) > 0 and multipliers z > 0 the conditions
 //!
-//! ∇f − Jᵀz = 0, c(η) − s = 0, s_k z_k = 0, J the rows ∂c_k,
+//! ∇f − Jᵀz = 0, p = c(η) − s = 0, sₖzₖ = 0, J the rows ∂cₖ,
 //!
-//! are approached by Newton steps on s_k z_k = σμ, μ = sᵀz/K, with Mehrotra's
-//! predictor, centring σ = (μ_affine/μ)³ and corrector:
+//! are approached by Newton steps on sₖzₖ = σμ, μ = sᵀz/K, with Mehrotra's
+//! predictor (σ = 0), centring σ = (μ of the predictor/μ)³ and corrector δ = Δs·Δz:
 //!
-//! (∇²f − Σ z_k ∇²c_k + Jᵀ(Z/S)J) Δη = −∇f + Jᵀ((σμ − δ − z·p)/s), p = c(η) − s,
-//! Δs = J Δη + p, Δz = (σμ − δ − z·Δs)/s − z, δ = Δs·Δz of the predictor.
+//! (∇²f − Σ zₖ∇²cₖ + Jᵀ(Z/S)J) Δη = −∇f + Jᵀ((σμ − δ − z·p)/s),
+//! Δs = J Δη + p, Δz = (σμ − δ − z·Δs)/s − z.
 //!
 //! Every arc touches two neighbouring heights, so the matrix is tridiagonal
 //! (pentadiagonal for a quadratic) and a step costs O(columns + arcs). An arc
-//! is drawn anew as a cut at every step, its curvature in ∇²c: where cutting
-//! planes would need rounds of programmes this is one.
+//! is drawn anew as a cut at every step, with its curvature in ∇²c: where cutting
+//! planes take rounds of programmes this is one.
+//!
+//! Far from the optimum √(1 + μ²) is hardly curved where a segment is steep,
+//! and Newton steps on it run away. So its curvature is κ = (1 − τμ/√(1 + μ²))/√(1 + μ²)
+//! with the direction τ ∈ [−1, 1] an unknown of its own, which the steps lead
+//! to μ/√(1 + μ²): from κ = 1/√(1 + μ²), an upper bound, to the true (1 + μ²)^{−3/2}.
+//!
+//! The answer is certified: for every feasible w, by convexity,
+//! f(w) ≥ f(η) − zᵀc(η) + (∇f − Jᵀz)·(w − η), and the stopping test bounds all that is subtracted.
 //!
 //! Mehrotra, *On the implementation of a primal-dual interior point method*
 //! (1992), doi 10.1137/0802028; for curved constraints Nocedal & Wright,
-//! *Numerical Optimization* (2nd ed., 2006), §19.2–19.3.
+//! *Numerical Optimization* (2nd ed., 2006), §19.2–19.3; for τ Chan, Golub & Mulet, *A nonlinear
+//! primal-dual method for total variation-based image restoration* (1999), doi 10.1137/S1064827596299767.
+
+mod feasibility;
 
 use crate::arc::{Arc, Pass};
 use crate::banded::Banded;
@@ -40,7 +51,7 @@ const TURN: f64 = 1.0;
 /// First slacks are at least this, in Δ: what a start between the cuts violates.
 const LEAST_SLACK: f64 = 0.02;
 
-/// First products s_k z_k.
+/// First products sₖzₖ.
 const FIRST_PRODUCT: f64 = 2e-3;
 
 /// Products are aimed no lower than this times the square of what the other conditions lack:
@@ -50,12 +61,6 @@ const FLOOR: f64 = 1e-2;
 /// Stationarity: largest entry of ∇f − Jᵀz, relative to that of ∇f or 1.
 const STATIONARY: f64 = 1e-9;
 
-/// Heights within which infeasibility is proved, in lengths of start → goal.
-const HORIZON: f64 = 100.0;
-
-/// Weight of ½‖η − η₀‖² beside ½‖min(c, 0)‖² in the search for the least violation.
-const ANCHOR: f64 = 1e-10;
-
 /// f.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Target<'a> {
@@ -63,7 +68,7 @@ pub(crate) enum Target<'a> {
     Length,
     /// ½ηᵀPη + qᵀη of half-bandwidth 2, of the order of 1.
     Quadratic(&'a Quadratic),
-    /// ANCHOR·½‖η − η₀‖².
+    /// ½`ANCHOR`‖η − η₀‖², of the search for feasible heights.
     Anchor,
 }
 
@@ -241,47 +246,6 @@ impl Interior {
         vector[1..self.heights.len() - 1].iter().fold(0.0, |m: f64, v| m.max(v.abs()))
     }
 
-    /// Whether the heights of least ½‖min(c, 0)‖² prove that none are feasible: there z = −min(c, 0) has Jᵀz ≈ 0.
-    /// Leaves the heights there.
-    fn least_violation(&mut self, within: f64) -> bool {
-        self.heights.clone_from(&self.first);
-        self.tangents.fill(0.0);
-        for _ in 0..PATIENCE {
-            for i in 0..self.rows.len() {
-                let room = self.pass(&self.rows[i].arc).room;
-                self.rows[i].dual = (-room).max(0.0);
-                self.rows[i].slack = room;
-            }
-            // Only for passes, curvatures and Jᵀz: f has no part in it.
-            self.evaluate(Target::Length);
-            if self.infeasible(within) {
-                return true;
-            }
-            self.assemble(Target::Anchor, |row| if row.dual > 0.0 { 1.0 } else { 0.0 });
-            if !self.matrix.factor() {
-                return false;
-            }
-            self.step.clear();
-            self.step.extend(self.heights.iter().zip(&self.first).map(|(y, first)| ANCHOR * (first - y)));
-            for (step, (gradient, residual)) in self.step.iter_mut().zip(self.gradient.iter().zip(&self.residual)) {
-                *step += gradient - residual;
-            }
-            self.solve_step();
-            let (mut reach, before) = ((TURN / self.turn()).min(1.0), self.violation());
-            self.go(reach);
-            while self.violation() > before && reach > 1e-3 {
-                reach *= 0.5;
-                self.go(-reach);
-            }
-        }
-        false
-    }
-
-    /// ‖min(c, 0)‖².
-    fn violation(&self) -> f64 {
-        self.rows.iter().map(|row| self.pass(&row.arc).room.min(0.0)).map(|room| room * room).sum()
-    }
-
     /// Passes, errors, ∇f and residual at the present heights. Returns f and sᵀz.
     fn evaluate(&mut self, target: Target<'_>) -> (f64, f64) {
         let Self { heights, rows, inverse, residual, gradient, .. } = self;
@@ -317,16 +281,6 @@ impl Interior {
         (value, product)
     }
 
-    /// Whether the multipliers prove that nothing within the horizon is feasible to `within`: by concavity
-    /// Σ z_k c_k(w) ≤ zᵀc(η) + (Jᵀz)·(w − η) for every w.
-    fn infeasible(&self, within: f64) -> bool {
-        let inner = 1..self.heights.len() - 1;
-        let horizon = HORIZON * inner.end as f64;
-        let sum: f64 = self.rows.iter().map(|row| row.dual * (row.pass.room + within)).sum();
-        let pull = |i: usize| (self.gradient[i] - self.residual[i]).abs() * (horizon + self.heights[i].abs());
-        sum < 0.0 && sum + inner.map(pull).sum::<f64>() < 0.0
-    }
-
     /// ∇²f − Σ z ∇²c + Jᵀ W J over the inner heights; W has `weight` of each row.
     fn assemble(&mut self, target: Target<'_>, weight: impl Fn(&Row) -> f64) {
         let Self { heights, rows, inverse, tangents, curvatures, matrix, .. } = self;
@@ -358,7 +312,7 @@ impl Interior {
         match target {
             Target::Length => {}
             Target::Quadratic(quadratic) => quadratic.add_to(&mut band[1..n - 1]),
-            Target::Anchor => band.iter_mut().for_each(|row| row[0] += ANCHOR),
+            Target::Anchor => band.iter_mut().for_each(|row| row[0] += feasibility::ANCHOR),
         }
         // Start and goal are fixed.
         band[0] = [1.0, 0.0, 0.0];

@@ -1,4 +1,4 @@
-//! Convex refinement of any planner's path, solved by clarabel.
+//! Convex refinement of any planner's path.
 //!
 //! [`Qp`] shortens or smooths the path of another planner and repairs a
 //! colliding one, with guarantees that hold for whole segments:
@@ -14,6 +14,10 @@
 //! candidates. The taut string through vertical gates bounds the length of a
 //! class from below; classes are polished in that order until the bound
 //! exceeds the best length, mostly after one.
+//!
+//! Clarabel solves the programmes, or a structured interior point of our own
+//! ([`Solver::Structured`]) that takes every border of a class as one curved
+//! constraint, so that a class is one programme.
 //!
 //! **Free vertices** ([`Model::Free`]): every obstacle near a segment is
 //! replaced by a half-plane that both of its ends keep; the current path stays

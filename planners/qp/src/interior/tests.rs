@@ -95,7 +95,7 @@ fn random_arcs(random: &mut ChaCha8Rng, columns: usize) -> Vec<Arc> {
     let mut uniform = |lo: f64, hi: f64| lo + (hi - lo) * random.random::<f64>();
     let count = uniform(1.0, 12.0) as usize;
     (0..count)
-        .map(|_| {
+        .filter_map(|_| {
             let side = if uniform(0.0, 1.0) < 0.5 { Side::Above } else { Side::Below };
             let segment = uniform(1.0, columns as f64) as usize;
             let radius = uniform(0.0, 2.0);
@@ -103,7 +103,6 @@ fn random_arcs(random: &mut ChaCha8Rng, columns: usize) -> Vec<Arc> {
             let b = side.sign() * (uniform(-1.5, 0.6) - radius);
             Arc::disc(segment, side, (uniform(-0.5, 1.5), b), radius)
         })
-        .flatten()
         .collect()
 }
 
