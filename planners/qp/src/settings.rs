@@ -33,7 +33,7 @@ pub struct Settings {
     /// are usual, with free vertices 2 to 50.
     pub max_rounds: usize,
     /// Relative change of the objective that counts as none, 1e-12 … 1e-2. Default 1e-9. With free vertices,
-    /// where steps shrink slowly, 10⁴ times this.
+    /// where steps shrink slowly, 10⁴ times this. The structured solver ends at a duality gap of a tenth of it.
     pub tolerance: f64,
 }
 
