@@ -54,6 +54,22 @@ impl Bvh {
         self.any(touching(a, b), &mut visit)
     }
 
+    /// Calls `visit` for every item whose box may touch the rectangle with the axis `a b` and
+    /// `half_width` (perhaps +∞) to either side, until it returns `true`. Returns whether it did.
+    pub fn any_beside(&self, a: Point, b: Point, half_width: f64, mut visit: impl FnMut(usize) -> bool) -> bool {
+        let d = b - a;
+        let (middle, along, across) = (a + d * 0.5, 0.5 * d.norm_squared(), half_width * d.norm());
+        self.any(
+            |aabb| {
+                let c = aabb.centre();
+                let (h, c) = (aabb.max - c, c - middle);
+                d.dot(&c).abs() <= h.x * d.x.abs() + h.y * d.y.abs() + along
+                    && cross(d, c).abs() <= h.x * d.y.abs() + h.y * d.x.abs() + across
+            },
+            &mut visit,
+        )
+    }
+
     /// Calls `visit` for every item whose box overlaps `region`, until it returns `true`.
     /// Returns whether it did.
     pub fn any_overlapping(&self, region: &Aabb, mut visit: impl FnMut(usize) -> bool) -> bool {

@@ -199,6 +199,15 @@ impl World {
         self.bvh.any_along(a, b, test)
     }
 
+    /// Calls `visit` with the index of every obstacle whose box may touch the rectangle with the axis
+    /// `a b`, a ≠ b, and `half_width` (perhaps +∞) to either side.
+    pub fn for_each_beside(&self, a: Point, b: Point, half_width: f64, mut visit: impl FnMut(usize)) {
+        self.bvh.any_beside(a, b, half_width, |i| {
+            visit(i);
+            false
+        });
+    }
+
     /// Where `path` first goes deeper than ε into an obstacle or over the border; `None` for a valid path.
     /// A point that is not finite is outside everything: depth +∞, no obstacle.
     pub fn first_violation(&self, path: &[Point]) -> Option<Violation> {

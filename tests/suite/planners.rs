@@ -15,6 +15,7 @@ pub fn planners() -> Vec<(String, Box<dyn Planner>)> {
         ("straight-line + qp", "straight-line", "refine = [\"qp\"]"),
         ("tangent + smooth qp", "tangent", "refine = [{ kind = \"qp\", objective = \"smooth\" }]"),
         ("pso-qp, final class", "pso-qp", "classes = \"final\""),
+        ("pso-qp, structured", "pso-qp", "qp = { solver = \"structured\" }"),
         ("influence-astar, soft", "influence-astar", "obstacles = \"soft\""),
         ("influence-astar, ring, pitch", "influence-astar", "heuristic = \"ring\"\nsearch_space = \"pitch\""),
         ("astar + qp", "astar", "refine = [\"qp\"]"),

@@ -33,22 +33,8 @@ pub(crate) struct Cuts<'a> {
 impl<'a> Cuts<'a> {
     /// The bounds of a class; `None` when they leave a column no height.
     pub(crate) fn new(strip: &'a Strip, sides: &'a [Side]) -> Option<Self> {
-        let count = strip.columns.count();
-        let mut bounds =
-            if strip.field.is_empty() { vec![(f64::NEG_INFINITY, f64::INFINITY); count] } else { strip.field.clone() };
-        for (piece, &side) in strip.pieces.iter().zip(sides) {
-            for (column, at_start) in [(1, true), (count, false)] {
-                let bound = &mut bounds[column - 1];
-                let least = fan_bound(strip, piece, side, at_start);
-                match side {
-                    Side::Above => bound.0 = bound.0.max(least),
-                    Side::Below => bound.1 = bound.1.min(-least),
-                }
-            }
-        }
-        let open =
-            bounds.iter().all(|&(lo, hi)| lo < f64::INFINITY && hi > f64::NEG_INFINITY && lo <= hi + strip.tolerance);
-        open.then_some(Self { strip, sides, bounds, list: Vec::new() })
+        let bounds = class_bounds(strip, sides)?;
+        Some(Self { strip, sides, bounds, list: Vec::new() })
     }
 
     /// Adds a cut wherever the polyline at `heights` comes vertically nearer to
@@ -96,6 +82,27 @@ impl<'a> Cuts<'a> {
         }
         worst
     }
+}
+
+/// The heights of the columns that the field and the segments at start and goal allow a class;
+/// `None` when they leave a column none.
+pub(crate) fn class_bounds(strip: &Strip, sides: &[Side]) -> Option<Vec<(f64, f64)>> {
+    let count = strip.columns.count();
+    let mut bounds =
+        if strip.field.is_empty() { vec![(f64::NEG_INFINITY, f64::INFINITY); count] } else { strip.field.clone() };
+    for (piece, &side) in strip.pieces.iter().zip(sides) {
+        for (column, at_start) in [(1, true), (count, false)] {
+            let bound = &mut bounds[column - 1];
+            let least = fan_bound(strip, piece, side, at_start);
+            match side {
+                Side::Above => bound.0 = bound.0.max(least),
+                Side::Below => bound.1 = bound.1.min(-least),
+            }
+        }
+    }
+    let open =
+        bounds.iter().all(|&(lo, hi)| lo < f64::INFINITY && hi > f64::NEG_INFINITY && lo <= hi + strip.tolerance);
+    open.then_some(bounds)
 }
 
 /// The least σ y of the column next to start or goal whose segment is safe:

@@ -1,4 +1,4 @@
-//! Convex refinement of any planner's path, solved by clarabel.
+//! Convex refinement of any planner's path.
 //!
 //! [`Qp`] shortens or smooths the path of another planner and repairs a
 //! colliding one, with guarantees that hold for whole segments:
@@ -15,6 +15,10 @@
 //! class from below; classes are polished in that order until the bound
 //! exceeds the best length, mostly after one.
 //!
+//! Clarabel solves the programmes, or a structured interior point of our own
+//! ([`Solver::Structured`]) that takes every border of a class as one curved
+//! constraint, so that a class is one programme.
+//!
 //! **Free vertices** ([`Model::Free`]): every obstacle near a segment is
 //! replaced by a half-plane that both of its ends keep; the current path stays
 //! feasible and the objective falls from round to round.
@@ -24,10 +28,13 @@
 //! capsules and convex polygons are one convex piece each; a polygon with
 //! reflex corners is one piece a side.
 
+mod arc;
+mod banded;
 mod cuts;
 mod free;
 mod funnel;
 mod halfplane;
+mod interior;
 mod piece;
 mod polish;
 mod program;
@@ -36,6 +43,7 @@ mod session;
 mod settings;
 mod smooth;
 mod strip;
+mod structured;
 
 pub use refine::Qp;
-pub use settings::{Classes, Method, Model, Objective, Settings};
+pub use settings::{Classes, Method, Model, Objective, Settings, Solver};

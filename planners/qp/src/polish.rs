@@ -168,8 +168,6 @@ fn shortest_socp(cuts: &[Cut], heights: &[f64], bends: &[f64], spacing: f64) -> 
     solve(&objective, &rows, count + 1)
 }
 
-/// The three terms of the smooth objective over Δ, in η:
-/// `w_length`‖D₁η‖² + `w_smooth` Δ‖D₂η‖² + `w_reference` Δ‖η − η₀‖².
 fn smoothest(
     cuts: &[Cut],
     heights: &[f64],
@@ -178,11 +176,19 @@ fn smoothest(
     spacing: f64,
     settings: &Settings,
 ) -> Answer {
+    let mut quadratic = smooth_quadratic(reference, spacing, settings, 1.0);
+    add_bends(&mut quadratic, heights, bends, spacing);
+    solve(&quadratic, &rows_of(cuts, reference.len(), spacing), 0)
+}
+
+/// `scale` times the three terms of the smooth objective over Δ, in η, less a constant:
+/// `w_length`‖D₁η‖² + `w_smooth` Δ‖D₂η‖² + `w_reference` Δ‖η − η₀‖².
+pub(crate) fn smooth_quadratic(reference: &[f64], spacing: f64, settings: &Settings, scale: f64) -> Quadratic {
     let count = reference.len();
     let mut quadratic = Quadratic::new(count, 2);
     for i in 0..=count {
         let (terms, n) = difference(i, count);
-        quadratic.add_square(settings.w_length, &terms[..n], 0.0);
+        quadratic.add_square(scale * settings.w_length, &terms[..n], 0.0);
     }
     for (k, &recalled) in reference.iter().enumerate() {
         let mut terms = vec![(k, -2.0)];
@@ -192,9 +198,8 @@ fn smoothest(
         if k + 1 < count {
             terms.push((k + 1, 1.0));
         }
-        quadratic.add_square(settings.w_smooth * spacing, &terms, 0.0);
-        quadratic.add_square(settings.w_reference * spacing, &[(k, 1.0)], -recalled / spacing);
+        quadratic.add_square(scale * settings.w_smooth * spacing, &terms, 0.0);
+        quadratic.add_square(scale * settings.w_reference * spacing, &[(k, 1.0)], -recalled / spacing);
     }
-    add_bends(&mut quadratic, heights, bends, spacing);
-    solve(&quadratic, &rows_of(cuts, count, spacing), 0)
+    quadratic
 }

@@ -44,6 +44,30 @@ impl Quadratic {
         self.linear[j] += c;
     }
 
+    /// ½xᵀPx + qᵀx, and its gradient Px + q into `gradient`.
+    pub(crate) fn evaluate(&self, x: &[f64], gradient: &mut [f64]) -> f64 {
+        gradient.copy_from_slice(&self.linear);
+        for j in 0..self.unknowns {
+            gradient[j] += self.band[j * self.depth] * x[j];
+            for k in 1..self.depth.min(j + 1) {
+                let v = self.band[j * self.depth + k];
+                gradient[j] += v * x[j - k];
+                gradient[j - k] += v * x[j];
+            }
+        }
+        // xᵀ(Px + q) + qᵀx, halved.
+        0.5 * x.iter().zip(gradient.iter().zip(&self.linear)).map(|(x, (g, q))| x * (g + q)).sum::<f64>()
+    }
+
+    /// Adds P to the rows of a matrix of half-bandwidth 2, which is P's own at most.
+    pub(crate) fn add_to(&self, rows: &mut [[f64; 3]]) {
+        for (row, band) in rows.iter_mut().zip(self.band.chunks_exact(self.depth)) {
+            for (entry, v) in row.iter_mut().zip(band) {
+                *entry += v;
+            }
+        }
+    }
+
     /// The upper triangle: clarabel reads a lower one as its diagonal.
     fn upper(&self) -> CscMatrix<f64> {
         let n = self.unknowns;

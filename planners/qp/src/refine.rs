@@ -8,9 +8,10 @@ use planner_api::{Plan, PlanError, Problem, Refinement, Refiner, Run, SettingErr
 use crate::free::descend;
 use crate::polish::{Polish, polish};
 use crate::session::Session;
-use crate::settings::{Classes, Model, Objective, Settings};
+use crate::settings::{Classes, Model, Objective, Settings, Solver};
 use crate::smooth::cost;
 use crate::strip::{Sides, Strip};
+use crate::structured::{Workspace, polish_structured};
 
 /// Columns when the path suggests none (Lu & Sun 2012).
 const DEFAULT_COLUMNS: usize = 20;
@@ -19,6 +20,7 @@ const DEFAULT_COLUMNS: usize = 20;
 #[derive(Debug, Clone)]
 pub struct Qp {
     settings: Settings,
+    workspace: Workspace,
 }
 
 impl Qp {
@@ -28,7 +30,7 @@ impl Qp {
     /// What [`Settings::validate`] finds.
     pub fn new(settings: Settings) -> Result<Self, SettingError> {
         settings.validate()?;
-        Ok(Self { settings })
+        Ok(Self { settings, workspace: Workspace::default() })
     }
 }
 
@@ -58,8 +60,8 @@ impl Refiner for Qp {
             plan.cost = session.cost;
             plan.terms.clear();
         }
-        let mut task =
-            Task { settings: &self.settings, problem, plan, free, floor: self.settings.enough(session.cost) };
+        let (settings, workspace) = (&self.settings, &mut self.workspace);
+        let mut task = Task { settings, workspace, problem, plan, free, floor: settings.enough(session.cost) };
         session.report();
         let stopped = task.refine(&mut session) == Polish::Stopped;
         let gained = session.found && (!free || session.cost < task.floor);
@@ -111,6 +113,7 @@ struct Class {
 /// One plan to refine.
 struct Task<'t> {
     settings: &'t Settings,
+    workspace: &'t mut Workspace,
     problem: &'t Problem<'t>,
     plan: &'t Plan,
     /// Whether the plan's path is free.
@@ -141,7 +144,8 @@ impl Task<'_> {
     fn on_columns(&mut self, session: &mut Session<'_, '_>, reference: &mut Vec<Point>) -> Polish {
         let (settings, world) = (self.settings, self.problem.world);
         let columns = Columns::new(self.problem.start, self.problem.goal, self.count());
-        let strip = Strip::new(world, columns, self.problem.start, self.problem.goal);
+        let limit = if settings.objective == Objective::Shorten { session.cost } else { f64::INFINITY };
+        let strip = Strip::new(world, columns, self.problem.start, self.problem.goal, limit);
         let Some(classes) = self.classes(&strip, session) else { return Polish::Stopped };
         let smooth = settings.objective == Objective::Smooth;
         let mut kept_own = classes.iter().any(|c| c.own && c.bound.is_finite());
@@ -159,7 +163,14 @@ impl Task<'_> {
             if (smooth && session.found) || (!smooth && class.bound >= settings.enough(session.cost)) {
                 break;
             }
-            match polish(&strip, &class.sides, &class.string, &class.member, settings, session) {
+            let (sides, start) = (&class.sides, &class.string);
+            let kept = match settings.solver {
+                Solver::Clarabel => polish(&strip, sides, start, &class.member, settings, session),
+                Solver::Structured => {
+                    polish_structured(&strip, sides, start, &class.member, settings, self.workspace, session)
+                }
+            };
+            match kept {
                 Polish::Stopped => return Polish::Stopped,
                 Polish::Nothing => kept_own &= !class.own,
                 Polish::Done => columns.write_path(&class.member, reference),

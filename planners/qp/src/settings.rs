@@ -11,8 +11,10 @@ pub struct Settings {
     pub model: Model,
     /// What becomes small. Default `"shorten"`.
     pub objective: Objective,
-    /// How `shorten` is solved; both reach the same length. Default `"reweighted-qp"`, three times faster.
+    /// How clarabel shortens; both reach the same length. Default `"reweighted-qp"`, three times faster.
     pub method: Method,
+    /// Who solves the programmes. Default `"clarabel"`.
+    pub solver: Solver,
     /// Which ways past the obstacles are tried in the column model. Default `"swarm"`.
     pub classes: Classes,
     /// Columns m of the column model, 1 … 10 000. Default: those of the path
@@ -31,7 +33,7 @@ pub struct Settings {
     /// are usual, with free vertices 2 to 50.
     pub max_rounds: usize,
     /// Relative change of the objective that counts as none, 1e-12 … 1e-2. Default 1e-9. With free vertices,
-    /// where steps shrink slowly, 10⁴ times this.
+    /// where steps shrink slowly, 10⁴ times this. The structured solver ends at a duality gap of a tenth of it.
     pub tolerance: f64,
 }
 
@@ -70,6 +72,18 @@ pub enum Method {
     Socp,
 }
 
+/// Who solves the programmes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Solver {
+    /// Clarabel, a general interior-point solver: rounds of programmes with cutting planes, `method` says which.
+    Clarabel,
+    /// An interior point of our own for heights on columns, with both objectives: banded Newton steps on the
+    /// length itself and on the curved borders, one programme a side class. It covers `model = "columns"` with
+    /// the default `method`; what that model leaves to free vertices (see [`Model::Columns`]) is solved by clarabel.
+    Structured,
+}
+
 /// Which side classes are tried in the column model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -88,6 +102,7 @@ impl Default for Settings {
             model: Model::Columns,
             objective: Objective::Shorten,
             method: Method::ReweightedQp,
+            solver: Solver::Clarabel,
             classes: Classes::Swarm,
             columns: None,
             w_length: 1.0,
@@ -113,6 +128,11 @@ impl Settings {
         }
         let sum = self.w_length + self.w_smooth + self.w_reference;
         SettingError::check(sum > 0.0, "w_length", self.w_length, "at least one of the three weights above 0")?;
+        if self.solver == Solver::Structured {
+            let covered = self.model == Model::Columns && self.method == Method::ReweightedQp;
+            let expected = "\"clarabel\" with model = \"free\" or method = \"socp\"";
+            SettingError::check(covered, "solver", "\"structured\"", expected)?;
+        }
         SettingError::check((1..=10_000).contains(&self.max_rounds), "max_rounds", self.max_rounds, "1 to 10000")?;
         SettingError::check((1e-12..=1e-2).contains(&self.tolerance), "tolerance", self.tolerance, "1e-12 to 1e-2")
     }
@@ -129,7 +149,7 @@ mod tests {
 
     #[test]
     fn settings_are_words_in_toml() {
-        let text = "model = \"free\"\nobjective = \"smooth\"\nmethod = \"socp\"\nclasses = \"final\"\ncolumns = 5\nw_smooth = 2.5";
+        let text = "model = \"free\"\nobjective = \"smooth\"\nmethod = \"socp\"\nsolver = \"clarabel\"\nclasses = \"final\"\ncolumns = 5\nw_smooth = 2.5";
         let settings: Settings = toml::from_str(text).unwrap();
         assert_eq!(
             settings,
@@ -158,6 +178,8 @@ mod tests {
             ("w_smooth", Settings { w_smooth: -1.0, ..default() }),
             ("w_reference", Settings { w_reference: f64::NAN, ..default() }),
             ("w_length", Settings { w_length: 0.0, w_smooth: 0.0, ..default() }),
+            ("solver", Settings { solver: Solver::Structured, model: Model::Free, ..default() }),
+            ("solver", Settings { solver: Solver::Structured, method: Method::Socp, ..default() }),
             ("max_rounds", Settings { max_rounds: 0, ..default() }),
             ("tolerance", Settings { tolerance: 0.0, ..default() }),
         ];

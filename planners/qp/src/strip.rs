@@ -27,18 +27,25 @@ pub(crate) struct Strip {
 }
 
 impl Strip {
-    /// All obstacles whose extent along start → goal meets it.
+    /// The obstacles between the perpendiculars that a path shorter than `limit` can meet: such a
+    /// path lies in the ellipse about start and goal with half-width ½√(`limit`² − L²); +∞ for all.
     ///
     /// Pieces are grown by the world's slack ε/2, less where start or goal
     /// lies nearer, and paths may violate them by half of that: what comes out
     /// keeps clear of the true obstacle, or at worst (start or goal touching
     /// it) within the slack.
-    pub(crate) fn new(world: &World, columns: Columns, start: Point, goal: Point) -> Self {
+    pub(crate) fn new(world: &World, columns: Columns, start: Point, goal: Point, limit: f64) -> Self {
         let (frame, length, margin) = (columns.frame(), columns.frame().length(), world.slack());
+        let half_width = 0.5 * (limit * limit - length * length).max(0.0).sqrt() + world.epsilon();
+        let mut near = Vec::new();
+        world.for_each_beside(start, goal, half_width, |index| near.push(index));
+        near.sort_unstable();
         let mut pieces = Vec::new();
-        for (index, obstacle) in world.obstacles().iter().enumerate() {
+        for index in near {
+            let obstacle = &world.obstacles()[index];
             let extent = frame.aabb_of(obstacle).inflated(margin);
-            if extent.max.x <= 0.0 || extent.min.x >= length {
+            let beside = extent.max.x <= 0.0 || extent.min.x >= length;
+            if beside || extent.max.y < -half_width || extent.min.y > half_width {
                 continue;
             }
             let first = pieces.len();

@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 use env_model::scene::{Field, Shape};
 use env_model::{Columns, LocalFrame, Obstacle, Point, World, path_length};
 use planner_api::{Budget, Frame, Observer, Plan, PlanError, Problem, Refinement, Refiner, Run, View};
-use planner_qp::{Classes, Model, Objective, Qp, Settings};
+use planner_qp::{Classes, Model, Objective, Qp, Settings, Solver};
 use support::{paper, paper_path, refine, scene};
 
 fn twenty() -> Settings {
@@ -90,6 +90,20 @@ fn observers_see_every_round_and_may_end_it() {
             assert!(watch.costs.windows(2).all(|w| w[1] <= w[0]), "{:?}", watch.costs);
             assert!(watch.iterations.iter().enumerate().all(|(i, &n)| n == i as u64), "{:?}", watch.iterations);
         }
+    }
+}
+
+#[test]
+fn a_budget_is_kept_by_the_structured_solver() {
+    let scene = paper();
+    let world = World::new(&scene).unwrap();
+    let problem = Problem::new(&world, scene.start(), scene.goal()).unwrap();
+    let mut qp = Qp::new(Settings { solver: Solver::Structured, ..twenty() }).unwrap();
+    for (iterations, expected) in [(0, Refinement::BudgetSpent), (1, Refinement::Improved)] {
+        let mut plan = Plan { path: paper_path([true, true, true]), ..Plan::new() };
+        let mut run = Run::new(1).with_budget(Budget { iterations: Some(iterations), ..Budget::default() });
+        assert_eq!(qp.refine(&problem, &mut run, &mut plan), Ok(expected));
+        assert!(run.spent.iterations == iterations && plan.counters == run.spent && world.path_free(&plan.path));
     }
 }
 
@@ -245,4 +259,40 @@ fn free_vertices_shorten_what_columns_cannot() {
     // Between the optimum in the plane and the columns' own.
     assert!(plan.cost < best.cost && plan.cost > 231.588_978, "{}", plan.cost);
     assert!(columns.count() + 2 == plan.path.len());
+}
+
+/// The structured solver on a hundred columns among discs in a row, half of them far from any shorter path.
+#[test]
+fn obstacles_beyond_any_shorter_path_change_nothing() {
+    let disc = |x: f64, y: f64| Obstacle::disc(Point::new(x, y), 4.0);
+    let near: Vec<Obstacle> = (1..9).map(|i| disc(10.0 * f64::from(i), if i % 2 == 0 { 1.0 } else { -1.5 })).collect();
+    let far = (1..60).flat_map(|i| [60.0, -70.0].map(|y| disc(1.5 * f64::from(i), y)));
+    let crowd: Vec<Obstacle> = near.iter().cloned().chain(far).collect();
+    for solver in [Solver::Clarabel, Solver::Structured] {
+        let run = |obstacles: &[Obstacle]| {
+            let mut scene = scene([0.0, 0.0], [90.0, 0.0], obstacles.to_vec());
+            // The same ε in both worlds.
+            scene.field = Some(Field { min: [-50.0, -100.0], max: [150.0, 100.0] });
+            let over = vec![scene.start(), Point::new(1.0, 9.0), Point::new(89.0, 9.0), scene.goal()];
+            refine(&scene, Settings { solver, columns: Some(100), ..Settings::default() }, over)
+        };
+        let ((few, outcome), (many, _)) = (run(&near), run(&crowd));
+        assert_eq!(outcome, Refinement::Improved);
+        assert_eq!(few.path, many.path, "{solver:?}");
+    }
+}
+
+/// A class whose gates are open but that no polyline on the columns passes is dismissed, and the path stays.
+#[test]
+fn structured_repair_fails_where_there_is_no_path() {
+    // Two columns: over the first two discs and under the bar between them.
+    let discs = [[30.0, -8.0], [60.0, -8.0]].map(|c| Obstacle::disc(c.into(), 10.0));
+    let bar = Obstacle::disc(Point::new(45.0, 11.5), 10.0);
+    let scene = scene([0.0, 0.0], [90.0, 0.0], discs.into_iter().chain([bar]).collect());
+    let between: Vec<Point> = [[0.0, 0.0], [30.0, 1.0], [60.0, 1.0], [90.0, 0.0]].map(Point::from).into();
+    for solver in [Solver::Clarabel, Solver::Structured] {
+        let settings = Settings { solver, columns: Some(2), classes: Classes::Final, ..Settings::default() };
+        let (plan, outcome) = refine(&scene, settings, between.clone());
+        assert_eq!((outcome, plan.path), (Refinement::NotRepaired, between.clone()), "{solver:?}");
+    }
 }

@@ -5,7 +5,7 @@ mod support;
 use env_model::scene::{Field, Shape};
 use env_model::{Obstacle, Point, Scene, World, path_length};
 use planner_api::{Plan, Problem, Refinement, Refiner, Run};
-use planner_qp::{Classes, Method, Model, Objective, Qp, Settings};
+use planner_qp::{Classes, Method, Model, Objective, Qp, Settings, Solver};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use support::scene;
@@ -66,17 +66,24 @@ fn settings() -> impl Strategy<Value = Settings> {
     let model = prop_oneof![Just(Model::Columns), Just(Model::Free)];
     let objective = prop_oneof![2 => Just(Objective::Shorten), 1 => Just(Objective::Smooth)];
     let method = prop_oneof![3 => Just(Method::ReweightedQp), 1 => Just(Method::Socp)];
+    let solver = prop_oneof![Just(Solver::Clarabel), Just(Solver::Structured)];
     let weights = prop::array::uniform3(prop_oneof![Just(0.0), 0.01..3.0]);
-    (model, objective, method, weights).prop_map(|(model, objective, method, [w_smooth, w_reference, more])| Settings {
-        model,
-        objective,
-        method,
-        w_smooth,
-        w_reference,
-        w_length: 0.1 + more,
-        max_rounds: 30,
-        ..Settings::default()
-    })
+    (model, objective, method, solver, weights).prop_map(
+        |(model, objective, method, solver, [w_smooth, w_reference, more])| {
+            let covered = model == Model::Columns && method == Method::ReweightedQp;
+            Settings {
+                model,
+                objective,
+                method,
+                solver: if covered { solver } else { Solver::Clarabel },
+                w_smooth,
+                w_reference,
+                w_length: 0.1 + more,
+                max_rounds: 30,
+                ..Settings::default()
+            }
+        },
+    )
 }
 
 /// Everything that holds for any path, whatever the outcome.
@@ -177,6 +184,27 @@ proptest! {
         prop_assert_eq!(qp_outcome, socp_outcome);
         if matches!(qp_outcome, Refinement::Repaired | Refinement::Improved) {
             prop_assert!((qp.cost - socp.cost).abs() < 1e-7 * qp.cost, "{} {}", qp.cost, socp.cost);
+        }
+    }
+
+    /// Cutting planes by clarabel against one curved programme: the same optimum of the same convex problem.
+    #[test]
+    fn both_solvers_agree(
+        scene in scenes(),
+        heights in prop::collection::vec(-30.0..30.0, 2..25),
+        smooth in prop::option::of(prop::array::uniform2(0.0..3.0)),
+    ) {
+        let columns = env_model::Columns::new(scene.start(), scene.goal(), heights.len());
+        let mut path = Vec::new();
+        columns.write_path(&heights, &mut path);
+        let [w_smooth, w_reference] = smooth.unwrap_or_default();
+        let objective = if smooth.is_some() { Objective::Smooth } else { Objective::Shorten };
+        let settings = Settings { objective, w_smooth, w_reference, classes: Classes::Final, ..Settings::default() };
+        let run = |solver| support::refine(&scene, Settings { solver, ..settings.clone() }, path.clone());
+        let ((one, one_outcome), (two, two_outcome)) = (run(Solver::Clarabel), run(Solver::Structured));
+        prop_assert_eq!(one_outcome, two_outcome);
+        if matches!(one_outcome, Refinement::Repaired | Refinement::Improved) {
+            prop_assert!((one.cost - two.cost).abs() < 1e-7 * one.cost, "{} {}", one.cost, two.cost);
         }
     }
 }
