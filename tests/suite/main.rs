@@ -3,6 +3,6 @@
 mod allocation;
 mod contract;
 mod golden;
-mod planners;
 mod rrt;
-mod scenes;
+
+use touchline_tests::{planners, scenes};
