@@ -68,7 +68,7 @@ impl Marks {
     fn plan(&mut self, name: &str, promise: Promise, kind: &str, settings: &str, scenes: &[Scene]) {
         let mut planner = match build_str(kind, settings) {
             Ok(built) => built.planner,
-            Err(BuildError::At { message, .. }) => return println!("{name}: left out, {message}"),
+            Err(BuildError::At { .. }) => return println!("{name}: left out, there is no such setting {settings}"),
             Err(error) => panic!("{name}: {error}"),
         };
         let worlds: Vec<World> = scenes.iter().map(scenes::world).collect();

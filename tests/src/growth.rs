@@ -84,9 +84,9 @@ pub fn exponent_of(points: &[Point], panel: &Panel, curve: &Curve) -> Option<f64
     exponent(&fitted)
 }
 
-const WIDTH: f64 = 860.0;
+const WIDTH: f64 = 900.0;
 const LEFT: f64 = 84.0;
-const RIGHT: f64 = 560.0;
+const RIGHT: f64 = 540.0;
 const TOP: f64 = 34.0;
 const PLOT: f64 = 250.0;
 const PANEL: f64 = 350.0;
@@ -119,9 +119,7 @@ pub fn svg(title: &str, panels: &[Panel], points: &[Point]) -> String {
 
 fn css() -> String {
     let ground = |paper: &str, ink: &str, muted: &str, rule: &str, colours: &dyn Fn(usize) -> &'static str| {
-        let mut out = format!(
-            ".ground{{fill:{paper}}}text{{fill:{ink}}}.muted{{fill:{muted}}}.grid{{stroke:{rule}}}.fit{{stroke:{muted}}}"
-        );
+        let mut out = format!(".ground{{fill:{paper}}}text{{fill:{ink}}}.muted{{fill:{muted}}}.grid{{stroke:{rule}}}");
         for i in 0..COLOURS.len() {
             let _ = write!(out, ".line.c{i}{{stroke:{0}}}.mark.c{i}{{fill:{0}}}", colours(i));
         }
@@ -134,6 +132,11 @@ fn css() -> String {
         ground("#ffffff", "#1b1f23", "#59636e", "#dde1e6", &|i| COLOURS[i].0),
         ground("#14171a", "#e8eaed", "#a3adb8", "#333a42", &|i| COLOURS[i].1),
     )
+}
+
+/// A whole number, its thousands apart from 10 000 on, where it must be whole thousands.
+fn grouped(count: f64) -> String {
+    if count < 1e4 { format!("{count}") } else { format!("{}\u{a0}000", count / 1e3) }
 }
 
 /// `10^exponent` µs in words.
@@ -181,9 +184,10 @@ fn draw(panel: &Panel, points: &[Point]) -> String {
         let x = x_at(tick);
         let _ = write!(
             out,
-            r#"<path class="grid" d="M{x:.1} {TOP}V{0:.1}"/><text class="muted middle" x="{x:.1}" y="{1:.1}">{tick}</text>"#,
+            r#"<path class="grid" d="M{x:.1} {TOP}V{0:.1}"/><text class="muted middle" x="{x:.1}" y="{1:.1}">{2}</text>"#,
             TOP + PLOT,
-            TOP + PLOT + 19.0
+            TOP + PLOT + 19.0,
+            grouped(tick)
         );
     }
     // Labels stand at the ends of their curves, moved apart where these meet.
@@ -209,7 +213,8 @@ fn draw(panel: &Panel, points: &[Point]) -> String {
         let growth = exponent_of(points, panel, curve).map_or(String::new(), |p| {
             format!(
                 r#"grows with the power <tspan class="axis">{p:.2}</tspan> ({} to {})"#,
-                curve.fit_from, curve.fit_to
+                grouped(curve.fit_from),
+                grouped(curve.fit_to)
             )
         });
         out += &marker(i, RIGHT + 18.0, y - 4.0);
@@ -264,7 +269,7 @@ mod tests {
     fn pictures_place_points_on_logarithmic_axes() {
         let picture = svg("growth", &[PANEL], &points());
         // The middle of three sizes a decade apart is in the middle; 1 µs to 1 ms are three decades.
-        assert!(picture.contains("L322.0 200.7L"), "{picture}");
+        assert!(picture.contains("L312.0 200.7L"), "{picture}");
         assert!(picture.contains(">1 ms<") && picture.contains(">2.00<"), "{picture}");
         assert!(picture.contains("prefers-color-scheme:dark"));
     }

@@ -36,6 +36,14 @@ pub fn discs(count: usize, seed: u64) -> Scene {
     }
 }
 
+/// `scene` of [`discs`] in a field one unit wider all round: no disc closes that
+/// rim, so there is a way, and the ways round all discs are narrow.
+pub fn walled(mut scene: Scene) -> Scene {
+    let [width, height] = scene.goal;
+    scene.field = Some(Field { min: [-1.0, -1.0], max: [width + 1.0, height + 1.0] });
+    scene
+}
+
 /// Robots at the density of `ssl-a`, and segments among them.
 pub struct Robots {
     /// The robots, in a square with room round it.
