@@ -4,6 +4,6 @@ mod allocation;
 mod contract;
 mod golden;
 mod optimum;
-mod planners;
 mod rrt;
-mod scenes;
+
+use touchline_tests::{planners, scenes};

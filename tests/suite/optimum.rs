@@ -8,8 +8,8 @@ use env_model::{Point, Scene, Shape, path_length};
 use planner_api::{Budget, Problem, Run};
 use planner_tangent::{NoOptimum, optimum};
 
-use crate::planners::planners;
-use crate::scenes;
+use touchline_tests::planners::planners;
+use touchline_tests::scenes;
 
 /// Whether the optimum is there for every shape and inside fields. While it is
 /// not, scenes that it declines (with anything but `Infeasible`) are passed over.

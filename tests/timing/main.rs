@@ -4,11 +4,7 @@ use std::time::{Duration, Instant};
 
 use env_model::generate::{Generator, generate};
 use planner_api::{Budget, Plan, Planner, Problem, Run};
-
-#[path = "../suite/planners.rs"]
-mod planners;
-#[path = "../suite/scenes.rs"]
-mod scenes;
+use touchline_tests::{planners, scenes};
 
 const MILLISECOND: Duration = Duration::from_millis(1);
 

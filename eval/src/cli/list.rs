@@ -17,13 +17,18 @@ pub(super) fn list(args: &ListArgs) -> Result<ExitCode, Error> {
             let row = |k: &planner_catalogue::Kind| Row {
                 cells: [k.name, k.summary, k.source].map(str::to_owned),
                 settings: Some(k.defaults()),
+                real_time: k.real_time,
             };
             (["name", "summary", "source"], kinds().iter().map(row).collect())
         }
         Listed::Generators => {
             let row = |g: Generator| {
                 let number = format!("{} obstacles", g.default_obstacles());
-                Row { cells: [g.name().to_owned(), g.description().to_owned(), number], settings: None }
+                Row {
+                    cells: [g.name().to_owned(), g.description().to_owned(), number],
+                    settings: None,
+                    real_time: false,
+                }
             };
             (["name", "summary", "default"], Generator::ALL.into_iter().map(row).collect())
         }
@@ -31,15 +36,17 @@ pub(super) fn list(args: &ListArgs) -> Result<ExitCode, Error> {
             let row = |m: &crate::metrics::Metric| Row {
                 cells: [m.name, m.definition, m.unit].map(str::to_owned),
                 settings: None,
+                real_time: false,
             };
             (["name", "definition", "unit"], METRICS.iter().map(row).collect())
         }
     };
     if args.json {
-        let object = |Row { cells, settings }: &Row| {
+        let object = |Row { cells, settings, real_time }: &Row| {
             let mut object = json!({ keys[0]: cells[0], keys[1]: cells[1], keys[2]: cells[2] });
             if let Some(settings) = settings {
                 object["settings"] = json!(settings);
+                object["real_time"] = json!(real_time);
             }
             object
         };
@@ -47,8 +54,9 @@ pub(super) fn list(args: &ListArgs) -> Result<ExitCode, Error> {
         return Ok(ExitCode::SUCCESS);
     }
     let width = rows.iter().map(|row| row.cells[0].len()).max().unwrap_or(0);
-    for Row { cells: [name, what, more], settings } in rows {
-        say(format!("{name:width$}  {what} [{more}]"));
+    for Row { cells: [name, what, more], settings, real_time } in rows {
+        let claim = if real_time { "; real time" } else { "" };
+        say(format!("{name:width$}  {what} [{more}{claim}]"));
         let settings = settings.unwrap_or_default();
         let settings: Vec<String> = settings.iter().map(|(key, value)| format!("{key} = {value}")).collect();
         if !settings.is_empty() {
@@ -61,4 +69,6 @@ pub(super) fn list(args: &ListArgs) -> Result<ExitCode, Error> {
 struct Row {
     cells: [String; 3],
     settings: Option<toml::Table>,
+    /// Whether a planner claims real time.
+    real_time: bool,
 }

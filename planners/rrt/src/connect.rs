@@ -21,6 +21,9 @@ pub struct RrtConnect {
     trees: [Tree; 2],
 }
 
+/// Points that a plan has room for from its first use on.
+const CORNERS: usize = 64;
+
 /// What came of a step.
 enum Step {
     /// It is blocked.
@@ -86,6 +89,7 @@ impl Planner for RrtConnect {
         let extent = world.extent().including(start).including(goal);
         let range = self.settings.range * extent.diagonal();
         let mut sampler = Sampler::new(run.seed);
+        plan.path.reserve(CORNERS);
         self.trees[0].plant(start);
         self.trees[1].plant(goal);
         self.report(run, plan.cost);

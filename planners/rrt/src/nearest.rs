@@ -65,6 +65,15 @@ impl KdTree {
         self.len = 0;
     }
 
+    /// Makes room for `points` in an empty tree.
+    pub fn reserve(&mut self, points: usize) {
+        // A split leaves at least one point on each side, mostly half of them.
+        let leaves = points.div_ceil(BUCKET / 4);
+        self.buckets.reserve(leaves);
+        self.nodes.reserve(2 * leaves);
+        self.pending.reserve(leaves);
+    }
+
     /// Adds a point; its number is that of the points before it.
     ///
     /// # Panics

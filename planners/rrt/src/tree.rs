@@ -13,12 +13,19 @@ pub(crate) struct Tree {
     pub index: KdTree,
 }
 
+/// Nodes that every tree has room for from its first use on: more than a first path in a game
+/// takes but once in many thousands of calls, so that buffers do not grow in a later one.
+const ROOM: usize = 256;
+
 impl Tree {
     /// Forgets all nodes and begins anew with `root`.
     pub fn plant(&mut self, root: Point) {
         self.points.clear();
         self.parents.clear();
         self.index.clear();
+        self.points.reserve(ROOM);
+        self.parents.reserve(ROOM);
+        self.index.reserve(ROOM);
         self.push(root, 0);
     }
 

@@ -1,4 +1,4 @@
-//! Scenes that the suite plans in.
+//! Scenes that tests and benchmarks plan in.
 
 use std::path::Path;
 
@@ -15,6 +15,16 @@ pub fn load(relative: &str) -> Scene {
 /// The scene of the 2012 paper.
 pub fn paper() -> Scene {
     load("configs/scenes/lu-sun-2012.toml")
+}
+
+/// A scene of `tests/reference/`.
+pub fn reference(name: &str) -> Scene {
+    load(&format!("tests/reference/{name}.toml"))
+}
+
+/// `count` instants of an 11-against-11 game.
+pub fn games(count: u32) -> Vec<Scene> {
+    (0..count).map(|index| generate(Generator::SslA, None, 1, index).unwrap_or_else(|e| panic!("{e}"))).collect()
 }
 
 /// A scene of every kind that planners must cope with: discs, overlapping
