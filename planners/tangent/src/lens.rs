@@ -16,10 +16,11 @@
 use std::ops::Range;
 
 use env_model::geometry::cross;
-use env_model::{Aabb, Point, Vector};
+use env_model::{Point, Vector};
 
-use crate::bitangent::{Bitangent, OrientedCircle, perp};
-use crate::terrain::{BroadPhase, FIRST, Terrain};
+use crate::bitangent::{Bitangent, OrientedCircle};
+use crate::cells::Strip;
+use crate::terrain::{FIRST, Terrain};
 
 /// Headings within a right angle of the axis are told apart this finely.
 const BINS: usize = 256;
@@ -133,13 +134,7 @@ pub(crate) struct Sweep {
 impl Sweep {
     /// Visits the tangents that the path may take next and no nearer piece hides.
     /// Returns whether there may be more with a longer rest.
-    pub fn visit<B: BroadPhase>(
-        &mut self,
-        terrain: &Terrain,
-        near: &B,
-        from: &Origin,
-        mut visit: impl FnMut(Sight),
-    ) -> bool {
+    pub fn visit(&mut self, terrain: &Terrain, from: &Origin, mut visit: impl FnMut(Sight)) -> bool {
         let to_goal = terrain.goal() - from.point;
         let distance = to_goal.norm();
         let axis = if distance > 0.0 { to_goal / distance } else { Vector::x() };
@@ -182,7 +177,7 @@ impl Sweep {
             // The widest place of the strip is the one nearest to the middle.
             let x = (focus.clamp(begin, end) - focus) / major;
             let half = (minor2 * (1.0 - x * x).max(0.0)).sqrt();
-            self.collect(terrain, near, from, [begin, end.min(last), half], room);
+            self.collect(terrain, from, [begin, end.min(last), half], room);
             self.sort();
             self.look(terrain, from, 0..self.strip.len(), &mut visit);
             if end >= last || self.is_closed(end, from, largest, ellipse) {
@@ -219,27 +214,17 @@ impl Sweep {
     }
 
     /// Collects the sites between two distances along the axis.
-    fn collect<B: BroadPhase>(
-        &mut self,
-        terrain: &Terrain,
-        near: &B,
-        from: &Origin,
-        [begin, end, half]: [f64; 3],
-        room: f64,
-    ) {
+    fn collect(&mut self, terrain: &Terrain, from: &Origin, [begin, end, half]: [f64; 3], room: f64) {
         let Self { strip, occlusion } = self;
         let axis = occlusion.axis;
         strip.clear();
-        let corner = |x: f64, y: f64| from.point + axis * x + perp(axis) * y;
-        let corners = [corner(begin, -half), corner(begin, half), corner(end, -half), corner(end, half)];
-        near.overlapping(&Aabb::of_points(&corners), |obstacle| {
-            for number in terrain.sites_of(obstacle) {
-                let site = terrain.site(number);
-                let d = site.centre - from.point;
-                let along = d.dot(&axis);
-                if along >= begin && along < end && site.via(from.point) <= room {
-                    strip.push((d.norm_squared(), number as u32));
-                }
+        let middle = from.point + axis * (0.5 * (begin + end));
+        terrain.sites_in(&Strip { middle, axis, half: [0.5 * (end - begin), half] }, |number| {
+            let site = terrain.site(number);
+            let d = site.centre - from.point;
+            let along = d.dot(&axis);
+            if along >= begin && along < end && site.via(from.point) <= room {
+                strip.push((d.norm_squared(), number as u32));
             }
         });
     }

@@ -22,6 +22,7 @@
 
 mod bitangent;
 mod candidate;
+mod cells;
 mod covers;
 mod lens;
 mod optimum;

@@ -1,6 +1,6 @@
 //! A taut path: straight pieces joined by arcs, and its polyline.
 
-use env_model::geometry::segment_segment_distance;
+use env_model::geometry::{point_segment_distance, segment_segment_distance};
 use env_model::{Aabb, Point, Vector};
 
 use crate::bitangent::{OrientedCircle, perp};
@@ -134,7 +134,12 @@ struct Surroundings<'a> {
 impl Surroundings<'_> {
     fn allow(&self, a: Point, apex: Point, b: Point) -> bool {
         let clear = |piece: &Piece, p: Point, q: Point| {
-            segment_segment_distance(p, q, piece.from, piece.to) >= piece.radius - self.tolerance
+            let distance = if piece.from == piece.to {
+                point_segment_distance(piece.from, p, q)
+            } else {
+                segment_segment_distance(p, q, piece.from, piece.to)
+            };
+            distance >= piece.radius - self.tolerance
         };
         self.bounds.is_none_or(|bounds| bounds.depth_of(apex) >= 0.0)
             && self.near.iter().all(|piece| clear(piece, a, apex) && clear(piece, apex, b))

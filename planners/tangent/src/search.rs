@@ -10,13 +10,13 @@ use crate::covers::{Covers, Reach};
 use crate::lens::{Origin, Sight, Sweep};
 use crate::route::Route;
 use crate::separation::Separation;
-use crate::terrain::{BroadPhase, Everything, GOAL, START, Terrain, Within};
+use crate::terrain::{BroadPhase, Everything, GOAL, START, Terrain, Walls, Within};
 
 /// After so many arrivals it pays to ask whether start and goal are separated at all.
 const ASK_SEPARATION: usize = 256;
 
 /// Paths are first looked for this much longer, relatively, than the straight line.
-const HEADROOM: f64 = 2e-3;
+const HEADROOM: f64 = 2e-2;
 /// By this factor the limit's excess over the straight line grows when it has proved too low.
 const GROWTH: f64 = 2.0;
 
@@ -80,8 +80,8 @@ pub struct Solver {
     sweep: Sweep,
     /// Among few obstacles: the sites of those that have been in the way.
     members: Vec<u32>,
-    /// Those obstacles.
-    in_the_way: Vec<u32>,
+    /// The pieces of those obstacles.
+    walls: Walls,
     /// Whether an obstacle is one of them.
     joined: Vec<bool>,
     arrivals: Vec<Arrival>,
@@ -260,10 +260,10 @@ impl Solver {
         self.open.clear();
         self.limit = goal.coords.norm() * (1.0 + HEADROOM);
         self.members.clear();
-        self.in_the_way.clear();
+        self.walls.clear();
         self.joined.clear();
         self.joined.resize(self.terrain.obstacles(), false);
-        let mut ask_at = ASK_SEPARATION;
+        let mut ask_at = ASK_SEPARATION.max(self.terrain.len());
         if !watch.allows() {
             return Outcome::Stopped;
         }
@@ -280,7 +280,7 @@ impl Solver {
                         self.raise(bound, watch);
                     }
                     self.arrivals[from as usize].pending = false;
-                    self.offer_all(near, from);
+                    self.offer_all(from);
                     continue;
                 }
             };
@@ -369,7 +369,7 @@ impl Solver {
         if let Some((_, bound)) = self.depart(index, straight_on, OrientedCircle::turn_at_least) {
             self.open.push(Candidate { bound, from: index, way: Way::Tangent(straight_on as u32) });
         }
-        self.offer_all(near, index);
+        self.offer_all(index);
         if let Some(by) = reach.by.filter(|_| self.terrain.is_modest()) {
             self.join(self.terrain.owner(by as usize));
         }
@@ -380,7 +380,7 @@ impl Solver {
         if !self.terrain.is_modest() {
             return self.terrain.blocks(near, a, b);
         }
-        if self.terrain.blocked_by(&self.in_the_way, a, b) {
+        if self.terrain.blocked_by(&self.walls, a, b) {
             return true;
         }
         let deepest = self.terrain.deepest(near, a, b);
@@ -395,7 +395,7 @@ impl Solver {
         if std::mem::replace(&mut self.joined[obstacle], true) {
             return;
         }
-        self.in_the_way.push(obstacle as u32);
+        self.terrain.copy_walls(obstacle, &mut self.walls);
         let known = self.members.len();
         let corners = self.terrain.sites_of(obstacle).filter(|&site| self.terrain.is_corner(site));
         self.members.extend(corners.map(|site| site as u32));
@@ -407,7 +407,7 @@ impl Solver {
     }
 
     /// Offers the tangents of an arrival with bounds up to the limit, but for those offered before.
-    fn offer_all<B: BroadPhase>(&mut self, near: &B, from: u32) {
+    fn offer_all(&mut self, from: u32) {
         let limit = self.limit;
         let offered = std::mem::replace(&mut self.arrivals[from as usize].offered, limit);
         if self.terrain.is_modest() {
@@ -417,7 +417,7 @@ impl Solver {
         let Self { terrain, sweep, open, arrivals, .. } = self;
         let mut offers = Offers::new(terrain, open, from, &arrivals[from as usize], [offered, limit]);
         let origin = offers.origin();
-        offers.longer |= sweep.visit(terrain, near, &origin, |sight| offers.add(&sight));
+        offers.longer |= sweep.visit(terrain, &origin, |sight| offers.add(&sight));
         if offers.longer {
             self.put_off(from, limit);
         }

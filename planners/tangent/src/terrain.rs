@@ -19,6 +19,7 @@ use env_model::geometry::{cross, point_segment_distance, segment_segment_distanc
 use env_model::{Aabb, Core, Inflated, Point, Polygon, Vector, World};
 
 use crate::bitangent::perp;
+use crate::cells::{Cells, Strip};
 
 /// Site of the start, of radius 0.
 pub(crate) const START: usize = 0;
@@ -137,6 +138,8 @@ pub(crate) struct Terrain {
     first: Vec<u32>,
     /// The obstacle of every site after start and goal.
     owner: Vec<u32>,
+    /// The sites by place; only among many.
+    cells: Cells,
     /// Where the path may be.
     bounds: Option<Aabb>,
     /// How deep segments and arcs may enter.
@@ -178,6 +181,7 @@ impl Terrain {
             }
         }
         self.first.push(self.sites.len() as u32);
+        self.sort();
     }
 
     /// Takes a world's obstacles, shrunk by `shrink`, and its field, grown by as much.
@@ -209,6 +213,19 @@ impl Terrain {
             let field = field.inflated(shrink.max(outside[0]).max(outside[1]));
             Aabb { min: field.min - start.coords, max: field.max - start.coords }
         });
+        self.sort();
+    }
+
+    fn sort(&mut self) {
+        if !self.is_modest() {
+            let Self { cells, sites, .. } = self;
+            cells.fill(FIRST, sites[FIRST..].iter().map(|site| site.centre));
+        }
+    }
+
+    /// Visits at least the sites with centres in `strip`; only among many.
+    pub fn sites_in(&self, strip: &Strip, visit: impl FnMut(usize)) {
+        self.cells.visit(strip, visit);
     }
 
     fn add_site(&mut self, centre: Point, radius: f64, cone: Cone, next: u32) {
@@ -389,7 +406,7 @@ impl Terrain {
     /// Whether `segment` enters the piece that begins at `site` by more than the tolerance.
     fn enters(&self, segment: &Segment, number: usize) -> bool {
         let site = &self.sites[number];
-        if segment.enters(site) {
+        if segment.nearer_than(site.centre, site.limit2) {
             return true;
         }
         let (end, limit) = (self.next[number], site.radius - self.tolerance);
@@ -400,11 +417,27 @@ impl Terrain {
             && segments_nearer_than(limit, segment.a, segment.b, site.centre, self.sites[end as usize].centre)
     }
 
-    /// Whether segment `a b` enters one of `obstacles`, or leaves the bounds, by more than the tolerance.
-    pub fn blocked_by(&self, obstacles: &[u32], a: Point, b: Point) -> bool {
+    /// Adds an obstacle's pieces to `walls`.
+    pub fn copy_walls(&self, obstacle: usize, walls: &mut Walls) {
+        for number in self.sites_of(obstacle) {
+            let Site { centre, limit2, radius, .. } = self.sites[number];
+            match self.next[number] {
+                NONE => {}
+                end if end as usize == number => walls.discs.push((centre, limit2)),
+                end => walls.capsules.push((centre, self.sites[end as usize].centre, radius - self.tolerance)),
+            }
+        }
+    }
+
+    /// Whether segment `a b` enters one of `walls`, or leaves the bounds, by more than the tolerance.
+    pub fn blocked_by(&self, walls: &Walls, a: Point, b: Point) -> bool {
         let segment = Segment::new(a, b);
+        let fold = |discs: &[(Point, f64)]| {
+            discs.iter().fold(false, |hit, &(centre, limit2)| hit | segment.nearer_than(centre, limit2))
+        };
         self.leaves(a, b)
-            || obstacles.iter().any(|&o| self.sites_of(o as usize).any(|number| self.enters(&segment, number)))
+            || walls.discs.chunks(8).any(fold)
+            || walls.capsules.iter().any(|&(c, d, limit)| limit > 0.0 && segments_nearer_than(limit, a, b, c, d))
     }
 
     /// Whether segment `a b` enters an obstacle, or leaves the bounds, by more than the tolerance.
@@ -422,7 +455,11 @@ impl Terrain {
                 && let Some(piece) = self.piece(number)
             {
                 let obstacle = self.owner(number);
-                let depth = piece.radius - segment_segment_distance(a, b, piece.from, piece.to);
+                let depth = if piece.from == piece.to {
+                    piece.radius - point_segment_distance(piece.from, a, b)
+                } else {
+                    piece.radius - segment_segment_distance(a, b, piece.from, piece.to)
+                };
                 if worst.is_none_or(|(d, o)| depth > d || (depth == d && obstacle < o)) {
                     worst = Some((depth, obstacle));
                 }
@@ -454,14 +491,31 @@ impl Segment {
         Self { a, b, d, len2: d.norm_squared() }
     }
 
-    /// Whether it comes nearer to a disc's centre than it may.
-    fn enters(&self, site: &Site) -> bool {
-        let (v, w) = (site.centre - self.a, site.centre - self.b);
+    /// Whether it comes nearer to `centre` than √`limit2`.
+    fn nearer_than(&self, centre: Point, limit2: f64) -> bool {
+        let (v, w) = (centre - self.a, centre - self.b);
         let (along, across) = (v.dot(&self.d), cross(v, self.d));
-        // No short circuit: one branch a disc.
-        ((along > 0.0) & (along < self.len2) & (across * across < site.limit2 * self.len2))
-            | (v.norm_squared() < site.limit2)
-            | (w.norm_squared() < site.limit2)
+        // No short circuit: branches cost more than what they save.
+        ((along > 0.0) & (along < self.len2) & (across * across < limit2 * self.len2))
+            | (v.norm_squared() < limit2)
+            | (w.norm_squared() < limit2)
+    }
+}
+
+/// Pieces that segments are tested against first.
+#[derive(Debug, Default)]
+pub(crate) struct Walls {
+    /// Centres, and squares of how near segments may come.
+    discs: Vec<(Point, f64)>,
+    /// Ends, and how near segments may come.
+    capsules: Vec<(Point, Point, f64)>,
+}
+
+impl Walls {
+    /// Forgets all.
+    pub fn clear(&mut self) {
+        self.discs.clear();
+        self.capsules.clear();
     }
 }
 
