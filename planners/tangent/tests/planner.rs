@@ -132,7 +132,7 @@ fn touching_ends_are_no_trouble() {
     }
 }
 
-/// A lattice of discs, shifted row by row.
+/// A lattice of discs, shifted row by row, and a wall across, so that the way is much longer than straight.
 fn forest() -> Scene {
     let mut scene = scene(&[]);
     scene.goal = [61.0, 59.5];
@@ -141,7 +141,7 @@ fn forest() -> Scene {
         let centre = Point::new(2.0 * column + 1.3 + (row * 0.618).fract(), 2.0 * row + 0.9 + (column * 0.755).fract());
         scene.obstacles.push(Obstacle::disc(centre, 0.55 + 0.3 * (f64::from(i) * 0.57).fract()));
     }
-    scene
+    with(scene, Shape::Capsule { from: [22.0, 40.0], to: [40.0, 22.0], radius: 0.5 })
 }
 
 #[test]
