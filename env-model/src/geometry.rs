@@ -46,6 +46,11 @@ pub fn point_segment_distance(p: Point, a: Point, b: Point) -> f64 {
 
 /// Whether the segments `a b` and `c d` share a point (end points and overlaps count).
 pub fn segments_cross(a: Point, b: Point, c: Point, d: Point) -> bool {
+    // In line but apart, rounding may put either's ends on both sides of the other.
+    let apart = |a: f64, b: f64, c: f64, d: f64| c.min(d) > a.max(b) || a.min(b) > c.max(d);
+    if apart(a.x, b.x, c.x, d.x) || apart(a.y, b.y, c.y, d.y) {
+        return false;
+    }
     let side = |o: Point, u: Point, p: Point| cross(u - o, p - o);
     let (s1, s2) = (side(a, b, c), side(a, b, d));
     let (s3, s4) = (side(c, d, a), side(c, d, b));
@@ -121,6 +126,19 @@ mod tests {
         assert_eq!(segment_segment_distance(a, b, p(1.0, 0.0), p(9.0, 0.0)), 0.0, "collinear overlap");
         assert_eq!(segment_segment_distance(a, b, p(5.0, 0.0), p(9.0, 0.0)), 1.0, "collinear apart");
         assert_eq!(segment_segment_distance(a, b, p(0.0, 2.0), p(4.0, 2.0)), 2.0, "parallel");
+    }
+
+    #[test]
+    fn segments_in_line_but_apart_do_not_cross() {
+        // Rounding flips both straddle tests of this pair.
+        let (a, b) =
+            (p(0.946_641_161_946_803_1, -2.133_213_887_862_182_5), p(0.369_521_754_767_896_84, -1.523_219_968_010_213));
+        let (c, d) = (
+            p(0.105_994_506_580_192_1, -1.244_681_389_840_395),
+            p(-0.471_124_900_598_714_26, -0.634_687_469_988_425_5),
+        );
+        assert!(!segments_cross(a, b, c, d));
+        assert!((segment_segment_distance(a, b, c, d) - (c - b).norm()).abs() < 1e-15);
     }
 
     #[test]

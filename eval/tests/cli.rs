@@ -153,8 +153,8 @@ fn a_campaign_leaves_everything_and_can_be_made_again() {
     assert_eq!(replay["length"].to_string(), cells[6]);
     assert_eq!(replay["cost"].to_string(), cells[17]);
 
-    // The swarm's own picture comes from a replay; the other planners show no state.
-    assert_eq!(report.matches("<figure class=\"own\">").count(), 1);
+    // The swarm's own picture and the exact planner's tree come from replays; the others show no state.
+    assert_eq!(report.matches("<figure class=\"own\">").count(), 2);
     assert!(report.contains("from an untimed replay of repeat"));
 
     place.refused(&["run", "small.toml", "--out", "out"], "holds a finished campaign, \"small\"");

@@ -84,13 +84,13 @@ pub fn kinds() -> &'static [Kind] {
             name: "pso-qp",
             summary: "The swarm, then convex refinement of the side classes it has visited (all keys of pso; \
                       classes = \"swarm\" or \"final\"; qp = { other keys of the refinement })",
-            source: "Lu & Sun 2012; refinement: Touchline, solved by clarabel",
+            source: "Lu & Sun 2012; refinement: Touchline, a convex programme",
             real_time: false,
             make: pso_qp,
         },
         Kind {
             name: "tangent",
-            summary: "The exact shortest path among discs",
+            summary: "The exact shortest path round discs, capsules and polygons",
             source: "tangent visibility graph, after arXiv:1103.3911",
             real_time: true,
             make: |settings| plain(settings, Tangent::new),

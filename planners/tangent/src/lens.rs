@@ -170,7 +170,7 @@ impl Sweep {
             return more;
         }
         // Radii tell how dense obstacles lie, unless they are tiny.
-        let step = (6.0 * largest).max(major / 32.0);
+        let step = (4.0 * largest).max(major / 32.0);
         let (mut begin, last) = (focus - major, focus + major);
         let mut end = step;
         loop {

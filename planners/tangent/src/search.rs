@@ -45,7 +45,7 @@ pub(crate) trait Watch {
     /// A tangent was tested against the obstacles.
     fn tested(&mut self) {}
     /// No path is as short as the limit, which is about to rise. `write` writes
-    /// the tree of arrivals: where they touch, and their parents.
+    /// the tree of arrivals: points and their parents.
     fn raised(&mut self, _write: impl FnOnce(&mut Vec<Point>, &mut Vec<u32>)) {}
 }
 
@@ -323,10 +323,17 @@ impl Solver {
         watch.raised(|points, parents| self.write_tree(points, parents));
     }
 
-    /// Appends where the arrivals of the last search touch their circles, and their parents' indices.
+    /// Appends the tree of the last search: two points an arrival, where its path leaves the
+    /// circle before and where it arrives, and their parents' indices. The start is one point.
     pub(crate) fn write_tree(&self, points: &mut Vec<Point>, parents: &mut Vec<u32>) {
-        points.extend(self.arrivals.iter().map(|a| a.point + self.ends[0].coords));
-        parents.extend(self.arrivals.iter().map(|a| a.parent));
+        let origin = self.ends[0].coords;
+        points.push(self.ends[0]);
+        parents.push(0);
+        for (i, arrival) in self.arrivals.iter().enumerate().skip(1) {
+            let before = self.circle(self.arrivals[arrival.parent as usize].circle as usize);
+            points.extend([before.touch(arrival.heading) + origin, arrival.point + origin]);
+            parents.extend([2 * arrival.parent, 2 * i as u32 - 1]);
+        }
     }
 
     fn circle(&self, circle: usize) -> OrientedCircle {

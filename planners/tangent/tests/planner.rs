@@ -231,7 +231,7 @@ fn frames_show_the_tree_as_it_grows() {
         assert!(i == 0 || nodes.starts_with(&frames[i - 1].2));
         assert_eq!(cost.is_finite(), i + 1 == frames.len());
     }
-    assert_eq!(frames.last().unwrap().2.len() as u64, plan.counters.evaluations);
+    assert_eq!(frames.last().unwrap().2.len() as u64, 2 * plan.counters.evaluations - 1);
 
     let mut film = Film { stop_after: Some(2), ..Film::default() };
     let (plan, status, _) = solve(&scene, &mut Run::new(1).with_observer(&mut film));
