@@ -201,9 +201,11 @@ fn an_observer_can_stop_the_run() {
         "potential-field",
     ];
     for (name, mut planner) in planners().into_iter().filter(|(name, _)| !ONE_FRAME.contains(&name.as_str())) {
-        let mut observer = watch(&name, Detail::Progress, 2);
+        // Among three discs the second frame of the exact planner shows its answer.
+        let last = if name == "tangent" { 1 } else { 2 };
+        let mut observer = watch(&name, Detail::Progress, last);
         let (plan, status) = plan(planner.as_mut(), &scene, &world, &mut Run::new(4).with_observer(&mut observer));
-        assert_eq!((status, observer.frames), (Status::BudgetSpent, 2), "{name}");
+        assert_eq!((status, observer.frames), (Status::BudgetSpent, last), "{name}");
         let none_yet = plan.path.is_empty() && GROWING.iter().any(|kind| name.starts_with(kind));
         assert!(none_yet || has_ends(&plan.path, &scene), "{name}: best so far");
     }

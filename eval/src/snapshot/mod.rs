@@ -157,7 +157,7 @@ pub enum State {
         /// The best path.
         path: Line,
     },
-    /// Trees of random samples.
+    /// Trees of points.
     Trees(Vec<Tree>),
     /// A population of candidate paths.
     Population {

@@ -66,7 +66,7 @@ pub enum View<'a> {
     Swarm(SwarmView<'a>),
     /// A search, an activity or a trail on cells.
     Cells(CellsView<'a>),
-    /// Trees of random samples.
+    /// Trees of points.
     Trees(&'a [TreeView<'a>]),
     /// A population of candidate paths.
     Population(PopulationView<'a>),
