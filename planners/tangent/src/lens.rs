@@ -8,7 +8,7 @@
 //! among many obstacles its cost is that of a neighbourhood, however far the goal.
 //!
 //! Occlusion only leaves out tangents that are surely blocked: a ray whose
-//! heading lies between the two tangents to a convex piece hits it on the near side,
+//! heading lies between the two tangents to a convex piece that is apart from its circle hits it on the near side,
 //! between the points of contact. The way there from where it touches its circle is
 //! √(|q − c|² − ρ²) for the point q that it hits: for a disc at most the longer of
 //! the two tangents, for a capsule at most the distance of the farther end plus the radius.
@@ -68,11 +68,12 @@ impl Occlusion {
     fn add(&mut self, [low, high]: [Vector; 2], [a, b]: [f64; 2], length: f64, far: f64, tolerance: f64) {
         // Turning by the angle δ moves a coordinate by δ(1 + t²)/2 ≤ δ.
         let margin = 2.0 * tolerance / length + 1e-12;
+        let (a, b) = ((a + margin).max(-1.0), (b - margin).min(1.0));
         // A piece may straddle the direction opposite to the axis, or lie all round.
         if a < b && cross(low, high) > 0.0 {
             // One bin too few where the place is whole.
-            let first = Self::place((a + margin).max(-1.0)) as usize + 1;
-            let last = Self::place((b - margin).min(1.0)).max(0.0) as usize;
+            let first = Self::place(a) as usize + 1;
+            let last = Self::place(b) as usize;
             if first < last {
                 for known in &mut self.far[first..last] {
                     // Not `min`: comparing compiles to vectors.
@@ -265,6 +266,11 @@ impl Sweep {
 /// Adds what the capsule between two sites hides.
 fn occlude_by_capsule(occlusion: &mut Occlusion, terrain: &Terrain, from: &Origin, ends: [usize; 2]) {
     let tolerance = terrain.tolerance();
+    let Some(piece) = terrain.piece(ends[0]) else { return };
+    // One that runs through the circle may lie behind a ray between the tangents to its ends.
+    if piece.core_distance(from.circle.centre) < from.circle.rho.abs() + piece.radius {
+        return;
+    }
     let tangents = ends.map(|end| {
         let site = terrain.site(end);
         let tangent = |rho| Bitangent::between(&from.circle, &OrientedCircle { centre: site.centre, rho }, 0.0);

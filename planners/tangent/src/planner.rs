@@ -125,6 +125,10 @@ impl Watch for Supervised<'_, '_> {
         self.run.allows(1)
     }
 
+    fn in_time(&mut self) -> bool {
+        self.run.in_time()
+    }
+
     fn expanded(&mut self) {
         self.run.spent.evaluations += 1;
     }

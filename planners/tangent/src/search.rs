@@ -12,7 +12,7 @@ use crate::route::Route;
 use crate::separation::Separation;
 use crate::terrain::{BroadPhase, Everything, GOAL, START, Terrain, Walls, Within};
 
-/// After so many arrivals it pays to ask whether start and goal are separated at all.
+/// After so many arrivals, when the way is longer than hoped, it pays to ask whether start and goal are separated at all.
 const ASK_SEPARATION: usize = 256;
 
 /// Paths are first looked for this much longer, relatively, than the straight line.
@@ -38,6 +38,10 @@ pub enum Outcome {
 pub(crate) trait Watch {
     /// Whether to go on; asked at every step.
     fn allows(&mut self) -> bool {
+        true
+    }
+    /// Whether there is time to go on with what is no step of the search.
+    fn in_time(&mut self) -> bool {
         true
     }
     /// An arrival was expanded.
@@ -90,6 +94,8 @@ pub struct Solver {
     open: BinaryHeap<Candidate>,
     /// No path longer than this is looked at yet.
     limit: f64,
+    /// Whether the limit has been raised.
+    raised: bool,
     separation: Separation,
     route: Route,
     found: bool,
@@ -210,7 +216,10 @@ impl Solver {
         watch: &mut W,
     ) -> Outcome {
         self.ends = [start, goal];
-        self.terrain.read_world(world, start, goal, shrink, tolerance);
+        if !self.terrain.read_world(world, [start, goal], shrink, tolerance, || watch.in_time()) {
+            self.found = false;
+            return Outcome::Stopped;
+        }
         self.search(&Within { world, origin: start.coords }, watch)
     }
 
@@ -259,11 +268,12 @@ impl Solver {
         self.arrivals.clear();
         self.open.clear();
         self.limit = goal.coords.norm() * (1.0 + HEADROOM);
+        self.raised = false;
         self.members.clear();
         self.walls.clear();
         self.joined.clear();
         self.joined.resize(self.terrain.obstacles(), false);
-        let mut ask_at = ASK_SEPARATION.max(self.terrain.len());
+        let mut asked = false;
         if !watch.allows() {
             return Outcome::Stopped;
         }
@@ -303,8 +313,8 @@ impl Solver {
                 self.trace(from, tangent.heading, cost);
                 return Outcome::Found { length: cost };
             }
-            if self.arrivals.len() >= ask_at {
-                ask_at = usize::MAX;
+            if !asked && self.raised && self.arrivals.len() >= ASK_SEPARATION {
+                asked = true;
                 match self.separation.separated(&self.terrain, near, || watch.allows()) {
                     None => return Outcome::Stopped,
                     Some(true) => return Outcome::Infeasible,
@@ -320,6 +330,7 @@ impl Solver {
     fn raise<W: Watch>(&mut self, bound: f64, watch: &mut W) {
         let straight = self.terrain.goal().coords.norm();
         self.limit = straight + GROWTH * (bound - straight);
+        self.raised = true;
         watch.raised(|points, parents| self.write_tree(points, parents));
     }
 

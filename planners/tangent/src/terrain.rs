@@ -29,6 +29,8 @@ pub(crate) const GOAL: usize = 1;
 pub(crate) const FIRST: usize = 2;
 /// No piece begins at the site.
 const NONE: u32 = u32::MAX;
+/// After so many obstacles it is time to look at the clock.
+const OBSTACLES_A_LOOK: usize = 1024;
 /// Up to so many sites the search remembers which obstacles have been in its way.
 const MODEST: usize = 512;
 /// Up to so many sites are all looked at, without asking the broad phase at all.
@@ -188,9 +190,21 @@ impl Terrain {
     ///
     /// An obstacle, or the border, that start or goal enter deeper, as far as a
     /// problem's ends are granted, gives way until they lie on it.
-    pub fn read_world(&mut self, world: &World, start: Point, goal: Point, shrink: f64, tolerance: f64) {
+    ///
+    /// Ends with `false` as soon as `go_on` says no.
+    pub fn read_world(
+        &mut self,
+        world: &World,
+        [start, goal]: [Point; 2],
+        shrink: f64,
+        tolerance: f64,
+        mut go_on: impl FnMut() -> bool,
+    ) -> bool {
         self.reset(goal - start.coords, tolerance);
-        for obstacle in world.obstacles() {
+        for (number, obstacle) in world.obstacles().iter().enumerate() {
+            if number % OBSTACLES_A_LOOK == OBSTACLES_A_LOOK - 1 && !go_on() {
+                return false;
+            }
             self.first.push(self.sites.len() as u32);
             match &obstacle.core {
                 Core::Point(c) => self.add_shrunk_disc(c - start.coords, obstacle.radius - shrink),
@@ -214,6 +228,7 @@ impl Terrain {
             Aabb { min: field.min - start.coords, max: field.max - start.coords }
         });
         self.sort();
+        true
     }
 
     fn sort(&mut self) {
@@ -293,6 +308,14 @@ impl Terrain {
             let cone = Cone { to: [-before, after], slack: if convex { slack } else { -1.0 } };
             self.add_site(corner - origin + mitre, rho, cone, (begin + (i + 1) % n) as u32);
             before = after;
+        }
+        // Where the polygon is so thin that no corner is as deep inside as its sides have moved, nothing of it is left.
+        let deep = |site: &Site| polygon.signed_distance(site.centre + origin) <= -0.99 * e;
+        if e > 0.0 && !self.sites[begin..].iter().any(deep) {
+            self.sites.truncate(begin);
+            self.cones.truncate(begin);
+            self.next.truncate(begin);
+            self.owner.truncate(begin - FIRST);
         }
     }
 

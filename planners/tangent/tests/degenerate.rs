@@ -161,3 +161,13 @@ fn hundreds_of_overlapping_discs_are_solved_at_any_scale() {
         }
     }
 }
+
+#[test]
+fn a_grid_of_touching_discs_lets_the_path_through() {
+    // Between four touching discs a point fits; more of them than the search remembers.
+    let grid: Vec<_> = (0..720).map(|i| (p(f64::from(i % 30), f64::from(i / 30)), 0.5)).collect();
+    let (start, goal) = (p(-1.0, -1.0), p(30.0, 24.0));
+    let forth = length(&grid, start, goal).unwrap();
+    assert_close(length(&grid, goal, start), forth);
+    assert!(forth > (goal - start).norm() && forth < 31.0 + 25.0, "{forth}");
+}

@@ -1,8 +1,10 @@
 //! What must hold between the optima of related scenes, and between optimum and planner.
 
-use env_model::{Scene, Shape, path_length};
+use env_model::{Inflated, Obstacle, Point, Scene, Shape, Vector, World, path_length};
 use planner_api::{Planner, Problem, Run, Status};
 use planner_tangent::{Settings, Tangent};
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 
 use crate::families::FAMILIES;
 use crate::{EVERY_SHAPE, solve, with_problem};
@@ -152,23 +154,99 @@ fn the_planner_finds_the_optimum_or_proves_that_there_is_none() {
     });
 }
 
-/// Among so many obstacles neighbours are found by sweeps, among few by what has been in the way.
+/// Adds so many tiny discs inside one of the obstacles that neighbours are found by sweeps
+/// instead of by what has been in the way.
+fn crowd(scene: &Scene) -> Option<Scene> {
+    let world = World::new(scene).unwrap();
+    let deepest = |obstacle: &Inflated| {
+        let (bounds, n) = (obstacle.aabb(), 40);
+        let at = |i: i32, j: i32| {
+            bounds.min
+                + bounds.size().component_mul(&Vector::new(f64::from(i) + 0.5, f64::from(j) + 0.5)) / f64::from(n)
+        };
+        let depth = |p: Point| -obstacle.point_clearance(p) - scene.robot_radius;
+        (0..n * n).map(|k| at(k % n, k / n)).map(|p| (depth(p), p)).max_by(|a, b| a.0.total_cmp(&b.0)).unwrap()
+    };
+    let (depth, centre) = world.obstacles().iter().map(deepest).max_by(|a, b| a.0.total_cmp(&b.0))?;
+    if depth < 1e3 * scene.epsilon() {
+        return None;
+    }
+    let mut other = scene.clone();
+    for i in 0..600 {
+        let at = centre + Vector::new(f64::from(i % 20), f64::from(i / 20)) * (0.01 * depth);
+        other.obstacles.push(Obstacle::disc(at, 0.1 * depth));
+    }
+    Some(other)
+}
+
 #[test]
-fn a_crowd_within_a_disc_changes_nothing() {
+fn a_crowd_within_an_obstacle_changes_nothing() {
     let mut crowded = 0;
     everywhere(|scene, _, alone| {
-        let disc = scene.obstacles.iter().find_map(|o| match o.shape {
-            Shape::Disc { centre, radius } => Some((centre, radius)),
-            _ => None,
-        });
-        let Some((centre, radius)) = disc else { return };
-        let mut other = scene.clone();
-        for i in 0..600 {
-            let at = [centre[0] + radius * 1e-3 * f64::from(i % 20), centre[1] + radius * 1e-3 * f64::from(i / 20)];
-            other.obstacles.push(Shape::Disc { centre: at, radius: 1e-2 * radius }.into());
+        if let Some(other) = crowd(scene) {
+            with_problem(&other, |problem| assert_same(alone, problem, scene));
+            crowded += 1;
         }
-        with_problem(&other, |problem| assert_same(alone, problem, scene));
-        crowded += 1;
     });
-    assert!(crowded >= 200, "{crowded}");
+    assert!(crowded >= 600, "{crowded}");
+}
+
+/// A thin capsule that runs through another's cap, both its ends outside: it may lie behind a ray
+/// whose heading is between the tangents to its ends.
+#[test]
+fn sticks_through_circles_hide_nothing_behind_them() {
+    let mut bent = 0;
+    for seed in 0..600 {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        let mut next = || (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
+        let mut scene = Scene {
+            name: format!("sticks {seed}"),
+            unit: "m".into(),
+            robot_radius: 0.02,
+            start: [0.3, 5.0],
+            goal: [9.7, 5.0],
+            field: None,
+            obstacles: Vec::new(),
+        };
+        while scene.obstacles.len() < 28 {
+            let from = [10.0 * next(), 10.0 * next()];
+            let (angle, length, radius) = (std::f64::consts::TAU * next(), 1.0 + 3.0 * next(), 0.002 + 0.08 * next());
+            let disc = next() < 0.4;
+            let to = [from[0] + length * angle.cos(), from[1] + length * angle.sin()];
+            let shape = if disc {
+                Shape::Disc { centre: from, radius: 8.0 * radius }
+            } else {
+                Shape::Capsule { from, to, radius }
+            };
+            scene.obstacles.push(shape.into());
+            let world = World::new(&scene).unwrap();
+            if [scene.start(), scene.goal()].iter().any(|&p| world.point_clearance(p) < 0.0) {
+                scene.obstacles.pop();
+            }
+        }
+        let few = with_problem(&scene, |problem| solve(problem).unwrap().map(|best| best.length));
+        bent += u32::from(few.is_some_and(|length| length > 9.5));
+        let many = crowd(&scene).unwrap();
+        with_problem(&many, |problem| assert_same(few, problem, &scene));
+    }
+    assert!(bent >= 200, "{bent}");
+}
+
+#[test]
+fn a_point_passes_through_a_wall_thinner_than_two_epsilon() {
+    for (thickness, open) in [(0.5, true), (1.9, true), (3.0, false), (10.0, false)] {
+        let mut scene = Scene {
+            name: format!("needle of {thickness}"),
+            unit: "m".into(),
+            robot_radius: 0.0,
+            start: [0.0, 0.0],
+            goal: [10.0, 0.0],
+            field: None,
+            obstacles: vec![Shape::Polygon(vec![[5.0, -4.0], [6.0, -4.0], [6.0, 4.0], [5.0, 4.0]]).into()],
+        };
+        let right = 5.0 + thickness * scene.epsilon();
+        scene.obstacles = vec![Shape::Polygon(vec![[5.0, -4.0], [right, -4.0], [right, 4.0], [5.0, 4.0]]).into()];
+        let length = with_problem(&scene, |problem| solve(problem).unwrap().unwrap().length);
+        assert_eq!(length == 10.0, open, "{thickness} ε: {length}");
+    }
 }
