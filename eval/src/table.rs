@@ -21,7 +21,7 @@ pub fn render(results: &Results) -> String {
             let name = &scene.scene.name;
             let optimum = match &scene.optimum.length {
                 Some(length) => format!("optimum {}", format::length(*length)),
-                None => format!("no optimum: {}", scene.optimum.reason.as_deref().unwrap_or("not computed")),
+                None => format!("no valid path: {}", scene.optimum.reason.as_deref().unwrap_or("not computed")),
             };
             out.push_str(&format!("{name} ({}; {optimum})\n{}\n", scene.scene.unit, one(results, Some(name))));
         }

@@ -10,6 +10,7 @@
 //! `-- --calls 2000` is a quick look, `-- --planner pso` one planner of the
 //! catalogue, whether it claims real time or not.
 
+use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use cpu_time::ThreadTime;
@@ -81,9 +82,24 @@ fn measure(name: &str, number: usize, problems: &[Problem<'_>]) -> Calls {
     calls
 }
 
-fn main() {
-    let number = option("--calls").map_or(CALLS, |n| n.parse().expect("--calls takes a number"));
+fn complain(what: &str) -> ExitCode {
+    eprintln!("error: {what}");
+    ExitCode::from(2)
+}
+
+fn main() -> ExitCode {
+    let number = match option("--calls").map(|n| n.parse()) {
+        None => CALLS,
+        Some(Ok(number)) if number > 0 => number,
+        Some(_) => return complain("--calls takes a whole number above 0"),
+    };
     let only = option("--planner");
+    if let Some(name) = &only
+        && kinds().iter().all(|kind| kind.name != name)
+    {
+        let names: Vec<_> = kinds().iter().map(|kind| kind.name).collect();
+        return complain(&format!("unknown planner {name:?}; expected one of {}", names.join(", ")));
+    }
     let scenes = scenes::games(SCENES);
     let worlds: Vec<_> = scenes.iter().map(scenes::world).collect();
     let problems: Vec<Problem<'_>> = worlds
@@ -140,4 +156,5 @@ fn main() {
         ],
         &rows,
     );
+    ExitCode::SUCCESS
 }

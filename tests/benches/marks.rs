@@ -57,7 +57,8 @@ impl Marks {
             });
         });
         group.finish();
-        // The samples come last, after the warm-up; none where the name is filtered out.
+        // The samples come last, after the warm-up (`--quick` takes fewer, so the median has some of that in it);
+        // none where the name is filtered out.
         let samples = &times[times.len().saturating_sub(samples)..];
         if !samples.is_empty() {
             self.rows.push((name.to_owned(), median(samples), promise));

@@ -14,7 +14,7 @@ fn blocked(generator: Generator) -> impl Iterator<Item = Scene> {
         .filter(|scene| !scenes::world(scene).segment_free(scene.start(), scene.goal()))
 }
 
-/// The length of the shortest path, where it can be had: among discs.
+/// The length of the shortest path.
 fn optimum(scene: &Scene) -> Option<f64> {
     let world = scenes::world(scene);
     let problem = Problem::new(&world, scene.start(), scene.goal()).unwrap();

@@ -137,7 +137,7 @@ fn summary(entry: &PlannerEntry, scene: &SceneResult, r: &RunRecord, judge: &Jud
     }
     match (&scene.optimum.length, &scene.optimum.reason) {
         (Some(optimum), _) => line("optimum", format!("{} {unit}", format::length(*optimum))),
-        (None, reason) => line("optimum", reason.as_deref().unwrap_or("not computed").to_owned()),
+        (None, reason) => line("optimum", format!("none: {}", reason.as_deref().unwrap_or("not computed"))),
     }
     if let Some(gap) = r.gap {
         line("gap", format::percent(gap));

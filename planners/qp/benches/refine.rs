@@ -1,4 +1,4 @@
-//! Refinement of the swarm's plan on the paper's scene, by each solver, and the whole of `pso-qp`.
+//! Refinement of the swarm's plan on the paper's scene, by each solver.
 
 use std::fs;
 use std::hint::black_box;
@@ -49,27 +49,5 @@ fn qp(c: &mut Criterion) {
     group.finish();
 }
 
-/// Swarm and refinement; each call has a seed of its own.
-fn whole(c: &mut Criterion) {
-    let scene = paper();
-    let world = World::new(&scene).expect("a valid scene");
-    let problem = Problem::new(&world, scene.start(), scene.goal()).expect("free ends");
-    let mut group = c.benchmark_group("pso-qp");
-    for (name, solver) in SOLVERS {
-        let mut swarm = swarm();
-        let mut qp = Qp::new(Settings { solver, ..Settings::default() }).expect("valid settings");
-        let (mut plan, mut seed) = (Plan::new(), 0);
-        group.bench_function(name, |b| {
-            b.iter(|| {
-                seed += 1;
-                let mut run = Run::new(seed);
-                swarm.plan_into(black_box(&problem), &mut run, &mut plan).expect("a plan");
-                qp.refine(&problem, &mut run, &mut plan)
-            });
-        });
-    }
-    group.finish();
-}
-
-criterion_group!(benches, qp, whole);
+criterion_group!(benches, qp);
 criterion_main!(benches);

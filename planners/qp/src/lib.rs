@@ -17,7 +17,9 @@
 //!
 //! Clarabel solves the programmes, or a structured interior point of our own
 //! ([`Solver::Structured`]) that takes every border of a class as one curved
-//! constraint, so that a class is one programme.
+//! constraint, so that a class is one programme; where it does not converge clarabel
+//! takes over. After `max_rounds` the best path so far counts, which among a hundred
+//! obstacles clarabel's rounds may leave a few 1e-5 above the optimum.
 //!
 //! **Free vertices** ([`Model::Free`]): every obstacle near a segment is
 //! replaced by a half-plane that both of its ends keep; the current path stays

@@ -176,15 +176,17 @@ fn smoothest(
     spacing: f64,
     settings: &Settings,
 ) -> Answer {
-    let mut quadratic = smooth_quadratic(reference, spacing, settings, 1.0);
+    let mut quadratic = smooth_quadratic(reference, spacing, settings);
     add_bends(&mut quadratic, heights, bends, spacing);
     solve(&quadratic, &rows_of(cuts, reference.len(), spacing), 0)
 }
 
-/// `scale` times the three terms of the smooth objective over Δ, in η, less a constant:
-/// `w_length`‖D₁η‖² + `w_smooth` Δ‖D₂η‖² + `w_reference` Δ‖η − η₀‖².
-pub(crate) fn smooth_quadratic(reference: &[f64], spacing: f64, settings: &Settings, scale: f64) -> Quadratic {
+/// The three terms of the smooth objective over Δ, in η, less a constant:
+/// `w_length`‖D₁η‖² + `w_smooth` Δ‖D₂η‖² + `w_reference` Δ‖η − η₀‖², over the sum of their
+/// factors, so that it is of the order of 1 whatever the weights are.
+pub(crate) fn smooth_quadratic(reference: &[f64], spacing: f64, settings: &Settings) -> Quadratic {
     let count = reference.len();
+    let scale = 1.0 / (settings.w_length + (settings.w_smooth + settings.w_reference) * spacing);
     let mut quadratic = Quadratic::new(count, 2);
     for i in 0..=count {
         let (terms, n) = difference(i, count);

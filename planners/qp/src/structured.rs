@@ -8,7 +8,7 @@ use env_model::{Point, path_length};
 use crate::arc::{Arc, class_arcs};
 use crate::interior::{Interior, Outcome, Target};
 use crate::piece::Side;
-use crate::polish::{Polish, smooth_quadratic};
+use crate::polish::{Polish, polish, smooth_quadratic};
 use crate::session::Session;
 use crate::settings::{Objective, Settings};
 use crate::smooth::smooth_cost;
@@ -44,9 +44,7 @@ pub(crate) fn polish_structured(
         return Polish::Nothing;
     }
     let smooth = settings.objective == Objective::Smooth;
-    // Of the order of 1 whatever the weights are.
-    let weights = settings.w_length + (settings.w_smooth + settings.w_reference) * spacing;
-    let quadratic = smooth.then(|| smooth_quadratic(reference, spacing, settings, 1.0 / weights));
+    let quadratic = smooth.then(|| smooth_quadratic(reference, spacing, settings));
     let target = quadratic.as_ref().map_or(Target::Length, Target::Quadratic);
     interior.begin(initial, spacing);
     let within = 0.5 * strip.tolerance / spacing;
@@ -81,7 +79,9 @@ pub(crate) fn polish_structured(
         session.report();
         match outcome {
             Outcome::Optimal => {}
-            Outcome::Infeasible | Outcome::Failed => return Polish::Nothing,
+            Outcome::Infeasible => return Polish::Nothing,
+            // It does not converge, which some smooth programmes among a dozen obstacles do to it.
+            Outcome::Failed => return polish(strip, sides, initial, reference, settings, session),
             Outcome::Stopped => return Polish::Stopped,
         }
     }

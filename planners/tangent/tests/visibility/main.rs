@@ -11,10 +11,6 @@ use oracle::bracket;
 use planner_api::Problem;
 use planner_tangent::{NoOptimum, Optimum, optimum};
 
-/// Whether the optimum is there for every shape and inside fields. While it is
-/// not, scenes that it declines (with anything but `Infeasible`) are passed over.
-const EVERY_SHAPE: bool = true;
-
 /// Corners a turn. The bracket of an arc is then 0.2 % wide.
 const CORNERS: usize = 48;
 
@@ -28,8 +24,7 @@ const ROUNDING: f64 = 1e-13;
 struct Judged {
     low: Option<f64>,
     high: Option<f64>,
-    /// `None` where the optimum is not supported yet.
-    best: Option<Option<Optimum>>,
+    best: Option<Optimum>,
 }
 
 /// Compiles a scene and poses its problem.
@@ -39,13 +34,12 @@ fn with_problem<T>(scene: &Scene, then: impl FnOnce(&Problem<'_>) -> T) -> T {
     then(&problem.unwrap_or_else(|e| panic!("{}: {e}", scene.name)))
 }
 
-/// The optimum; `Some(None)` when infeasible, `None` where it is not supported yet.
-fn solve(problem: &Problem<'_>) -> Option<Option<Optimum>> {
+/// The optimum; `None` when infeasible.
+fn solve(problem: &Problem<'_>) -> Option<Optimum> {
     match optimum(problem) {
-        Ok(best) => Some(Some(best)),
-        Err(NoOptimum::Infeasible) => Some(None),
-        Err(other) if EVERY_SHAPE => panic!("{other}"),
-        Err(_) => None,
+        Ok(best) => Some(best),
+        Err(NoOptimum::Infeasible) => None,
+        Err(other) => panic!("{other}"),
     }
 }
 
@@ -55,20 +49,19 @@ fn judge(scene: &Scene, k: usize) -> Judged {
         let (low, high) = bracket(problem, k);
         let best = solve(problem);
         let text = || {
-            let length = best.as_ref().map(|b| b.as_ref().map(|b| b.length));
+            let length = best.as_ref().map(|b| b.length);
             format!("{}: optimum {length:?}, bracket {low:?} to {high:?}\n{}", scene.name, scene.to_toml())
         };
         // The bracket's own order, whatever the optimum says.
         assert!(low.is_some() || high.is_none(), "no bracket: {}", text());
         assert!(low.zip(high).is_none_or(|(low, high)| low <= high * (1.0 + ROUNDING)), "no bracket: {}", text());
         match &best {
-            Some(Some(best)) => {
+            Some(best) => {
                 assert!(low.is_some_and(|low| low <= best.length * (1.0 + ROUNDING)), "too short: {}", text());
                 assert!(high.is_none_or(|high| best.length <= high * (1.0 + ROUNDING)), "too long: {}", text());
                 check_path(best, problem, &text);
             }
-            Some(None) => assert!(high.is_none(), "not infeasible: {}", text()),
-            None => {}
+            None => assert!(high.is_none(), "not infeasible: {}", text()),
         }
         Judged { low, high, best }
     })
@@ -90,7 +83,6 @@ fn check_path(best: &Optimum, problem: &Problem<'_>, text: &dyn Fn() -> String) 
 #[derive(Debug, Default)]
 struct Tally {
     scenes: u32,
-    supported: u32,
     /// The shortest path is not straight.
     bent: u32,
     /// The bracket is at most 1 % wide.
@@ -109,10 +101,9 @@ fn the_optimum_lies_in_its_bracket() {
     for family in FAMILIES {
         let mut tally = Tally::default();
         for scene in family.scenes() {
-            let Judged { low, high, best } = judge(&scene, CORNERS);
+            let Judged { low, high, .. } = judge(&scene, CORNERS);
             let straight = (scene.goal() - scene.start()).norm();
             tally.scenes += 1;
-            tally.supported += u32::from(best.is_some());
             tally.bent += u32::from(low.is_some_and(|low| low > straight * (1.0 + 1e-9)));
             tally.closed += u32::from(low.is_none());
             tally.undecided += u32::from(low.is_some() && high.is_none());
