@@ -12,8 +12,9 @@ use std::time::{Duration, Instant};
 
 use criterion::Criterion;
 use env_model::{Point, Scene, World};
-use planner_api::{Plan, Problem, Run};
-use planner_catalogue::{BuildError, build_str};
+use planner_api::{Plan, Planner, Problem, Run};
+use planner_catalogue::build_str;
+use planner_pso::{Pso, Width};
 use touchline_tests::random::{self, Robots};
 use touchline_tests::report::{cpu, print_table, time, vector_units};
 use touchline_tests::scenes;
@@ -67,11 +68,12 @@ impl Marks {
 
     /// Measures a planner of the catalogue over `scenes`: the mean over them.
     fn plan(&mut self, name: &str, promise: Promise, kind: &str, settings: &str, scenes: &[Scene]) {
-        let mut planner = match build_str(kind, settings) {
-            Ok(built) => built.planner,
-            Err(BuildError::At { .. }) => return println!("{name}: left out, there is no such setting {settings}"),
-            Err(error) => panic!("{name}: {error}"),
-        };
+        let planner = build_str(kind, settings).unwrap_or_else(|error| panic!("{name}: {error}")).planner;
+        self.call(name, promise, planner, scenes);
+    }
+
+    /// The same with a planner that has been built.
+    fn call(&mut self, name: &str, promise: Promise, mut planner: Box<dyn Planner>, scenes: &[Scene]) {
         let worlds: Vec<World> = scenes.iter().map(scenes::world).collect();
         let problems: Vec<Problem<'_>> =
             worlds.iter().zip(scenes).map(|(world, scene)| problem(world, scene)).collect();
@@ -109,17 +111,22 @@ fn promise(mark: f64, stretch: f64) -> Promise {
 }
 
 /// The swarm's marks depend on the vector unit: 1.1 times a hand-written kernel's time with AVX-512.
-fn swarm_promise() -> Promise {
-    match vector_units().last() {
-        Some(&"AVX-512") => promise(1.1 * 136.0, 120.0),
-        Some(&("AVX2" | "FMA")) => promise(260.0, 220.0),
-        _ => promise(510.0, 420.0),
+fn swarm_promise(width: &str) -> Promise {
+    match width {
+        "AVX-512" => promise(1.1 * 136.0, 120.0),
+        "AVX2" => promise(260.0, 220.0),
+        "SSE 4.2" | "NEON" => promise(510.0, 420.0),
+        _ => Promise::default(),
     }
 }
 
 fn planners(marks: &mut Marks) {
     let paper = [scenes::paper()];
-    marks.plan("pso: 20 × 400, paper", swarm_promise(), "pso", "", &paper);
+    for width in Width::all() {
+        let swarm = Pso::new(planner_pso::Settings::default()).expect("valid settings").on(width);
+        let name = format!("pso: 20 × 400, paper, {}", width.name());
+        marks.call(&name, swarm_promise(width.name()), Box::new(swarm), &paper);
+    }
     let clarabel = Promise { mark: Some(1200.0), stretch: None };
     marks.plan("pso-qp: clarabel, paper", clarabel, "pso-qp", "", &paper);
     let structured = Promise { mark: None, stretch: Some(230.0) };
@@ -158,6 +165,14 @@ fn collision(marks: &mut Marks) {
         each("segment_clearance", Promise::default(), &|a, b| world.segment_clearance(a, b));
         each("point_clearance", Promise::default(), &|a, _| world.point_clearance(a));
     }
+    // 21 robots and two defence areas, which are polygons.
+    let game = scenes::world(&scenes::games(1)[0]);
+    let Robots { segments, .. } = Robots::new(22);
+    marks.measure("segment_free: a game of ssl-a", Promise::default(), segments.len(), || {
+        for (a, b) in &segments {
+            black_box(game.segment_free(black_box(*a), black_box(*b)));
+        }
+    });
 }
 
 fn main() {

@@ -57,7 +57,12 @@ pub fn vector_units() -> Vec<&'static str> {
         ("AVX", is_x86_feature_detected!("avx")),
         ("AVX2", is_x86_feature_detected!("avx2")),
         ("FMA", is_x86_feature_detected!("fma")),
-        ("AVX-512", is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq")),
+        (
+            "AVX-512",
+            is_x86_feature_detected!("avx512f")
+                && is_x86_feature_detected!("avx512dq")
+                && is_x86_feature_detected!("avx512vl"),
+        ),
     ];
     #[cfg(target_arch = "aarch64")]
     let found = [("NEON", std::arch::is_aarch64_feature_detected!("neon"))];
