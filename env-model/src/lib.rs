@@ -17,6 +17,7 @@ pub mod grid;
 pub mod import;
 pub mod inflated;
 pub mod influence;
+pub mod probe;
 pub mod risk;
 pub mod scene;
 pub mod source;
@@ -25,7 +26,6 @@ pub mod world;
 mod buckets;
 mod near;
 mod polygon;
-mod probe;
 mod scene_file;
 mod slabs;
 

@@ -93,9 +93,10 @@ impl Few {
         bits(near & !self.others).any(|k| probe.enters(&self.discs[k])) || bits(near & self.others).any(other)
     }
 
-    /// Calls `visit` for every item whose box, which may meet `region`, `touches`.
-    pub fn for_each(&self, region: &Aabb, touches: impl Fn(&Aabb) -> bool, visit: impl FnMut(usize)) {
-        bits(self.meeting(region)).filter(|&k| touches(&self.boxes[k])).for_each(visit);
+    /// Calls `visit` for every item whose box, which may meet `region`, `touches`, until it returns `true`.
+    /// Returns whether it did.
+    pub fn any(&self, region: &Aabb, touches: impl Fn(&Aabb) -> bool, visit: impl FnMut(usize) -> bool) -> bool {
+        bits(self.meeting(region)).filter(|&k| touches(&self.boxes[k])).any(visit)
     }
 }
 

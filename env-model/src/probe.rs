@@ -5,7 +5,7 @@ use crate::{Point, Vector};
 
 /// The integer nearest to `t` in 0 ..= `last`, `last` < 2³²; 0 when `t` is not a number. Never falls as `t` rises.
 #[inline]
-pub fn clamped_index(t: f64, last: f64) -> usize {
+pub(crate) fn clamped_index(t: f64, last: f64) -> usize {
     // Adding 2⁵² rounds to an integer and leaves it in the lowest bits, for a third of a cast's instructions.
     const INTEGER: f64 = (1u64 << 52) as f64;
     (t.max(0.0).min(last) + INTEGER).to_bits() as u32 as usize

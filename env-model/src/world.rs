@@ -170,33 +170,34 @@ impl World {
 
     /// Calls `visit` with the index of every obstacle whose box overlaps `region`.
     pub fn for_each_overlapping(&self, region: &Aabb, mut visit: impl FnMut(usize)) {
+        let mut every = |i| {
+            visit(i);
+            false
+        };
         if let Near::Few(few) = &self.near {
-            few.for_each(region, |aabb| region.overlaps(aabb), |k| visit(self.bvh.items()[k] as usize));
+            few.any(region, |aabb| region.overlaps(aabb), |k| every(self.bvh.items()[k] as usize));
         } else {
-            self.bvh.any_overlapping(region, |i| {
-                visit(i);
-                false
-            });
+            self.bvh.any_overlapping(region, every);
         }
     }
 
     /// Calls `visit` with the index of every obstacle whose box the segment `a b` may touch.
     pub fn for_each_along(&self, a: Point, b: Point, mut visit: impl FnMut(usize)) {
-        if let Near::Few(few) = &self.near {
-            let region = Aabb::of_points([&a, &b]);
-            few.for_each(&region, touching(a, b), |k| visit(self.bvh.items()[k] as usize));
-        } else {
-            self.bvh.any_along(a, b, |i| {
-                visit(i);
-                false
-            });
-        }
+        self.any_along(a, b, |i| {
+            visit(i);
+            false
+        });
     }
 
     /// Whether `test` holds for the index of an obstacle whose box the segment `a b` may touch; asks no
     /// further once it does.
-    pub fn any_along(&self, a: Point, b: Point, test: impl FnMut(usize) -> bool) -> bool {
-        self.bvh.any_along(a, b, test)
+    pub fn any_along(&self, a: Point, b: Point, mut test: impl FnMut(usize) -> bool) -> bool {
+        if let Near::Few(few) = &self.near {
+            let region = Aabb::of_points([&a, &b]);
+            few.any(&region, touching(a, b), |k| test(self.bvh.items()[k] as usize))
+        } else {
+            self.bvh.any_along(a, b, test)
+        }
     }
 
     /// Calls `visit` with the index of every obstacle whose box may touch the rectangle with the axis

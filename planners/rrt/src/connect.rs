@@ -133,20 +133,7 @@ mod tests {
     use planner_api::Budget;
 
     use super::*;
-
-    fn scene() -> Scene {
-        Scene {
-            name: "paper".into(),
-            unit: "cm".into(),
-            robot_radius: 0.0,
-            start: [200.0, 150.0],
-            goal: [400.0, 260.0],
-            field: None,
-            obstacles: [[240.0, 160.0], [280.0, 200.0], [320.0, 230.0]]
-                .map(|c| Obstacle::disc(c.into(), 16.0))
-                .to_vec(),
-        }
-    }
+    use crate::paper;
 
     fn solve(settings: ConnectSettings, scene: &Scene, run: &mut Run<'_>) -> (RrtConnect, Plan, Status) {
         let world = World::new(scene).unwrap();
@@ -159,7 +146,7 @@ mod tests {
 
     #[test]
     fn the_trees_meet_in_one_point_and_no_step_is_longer_than_the_range() {
-        let scene = scene();
+        let scene = paper();
         let diagonal = World::new(&scene).unwrap().extent().diagonal();
         for range in [0.05, 0.2, 1.0] {
             for seed in 0..50 {
@@ -182,7 +169,7 @@ mod tests {
 
     #[test]
     fn in_an_empty_world_the_first_sample_joins_the_trees() {
-        let mut scene = scene();
+        let mut scene = paper();
         scene.obstacles.clear();
         let diagonal = World::new(&scene).unwrap().extent().diagonal();
         for seed in 0..20 {
@@ -200,7 +187,7 @@ mod tests {
 
     #[test]
     fn a_narrow_door_is_found_in_time_and_a_closed_one_never() {
-        let mut scene = scene();
+        let mut scene = paper();
         scene.robot_radius = 4.5;
         scene.field = Some(Field { min: [100.0, 100.0], max: [500.0, 300.0] });
         let wall = |low: f64, high: f64| {
@@ -224,7 +211,7 @@ mod tests {
         for limit in 1..40 {
             let budget = Budget { evaluations: Some(limit), ..Budget::default() };
             let settings = ConnectSettings { range: 0.01, ..ConnectSettings::default() };
-            let (_, plan, status) = solve(settings, &scene(), &mut Run::new(2).with_budget(budget));
+            let (_, plan, status) = solve(settings, &paper(), &mut Run::new(2).with_budget(budget));
             assert!(plan.counters.evaluations <= limit);
             assert_eq!(status, Status::BudgetSpent, "40 steps of 1 % do not reach the goal");
         }

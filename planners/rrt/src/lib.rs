@@ -30,3 +30,19 @@ mod tree;
 pub use connect::RrtConnect;
 pub use settings::{ConnectSettings, StarSettings};
 pub use star::RrtStar;
+
+/// The scene of Lu & Sun (2012).
+#[cfg(test)]
+fn paper() -> env_model::Scene {
+    env_model::Scene {
+        name: "paper".into(),
+        unit: "cm".into(),
+        robot_radius: 0.0,
+        start: [200.0, 150.0],
+        goal: [400.0, 260.0],
+        field: None,
+        obstacles: [[240.0, 160.0], [280.0, 200.0], [320.0, 230.0]]
+            .map(|c| env_model::Obstacle::disc(c.into(), 16.0))
+            .to_vec(),
+    }
+}

@@ -81,9 +81,9 @@ impl Covers {
         terrain.pieces_near(near, &Aabb { min: centre, max: centre }.inflated(radius), |first| {
             if let Some(piece) = terrain.piece(first) {
                 let shallow = Piece { radius: piece.radius - tolerance, ..piece };
-                let itself = first == site && piece.from == piece.to;
+                let itself = first == site && piece.is_disc();
                 if shallow.radius > 0.0 && !itself {
-                    if piece.from == piece.to {
+                    if piece.is_disc() {
                         self.cover_by_disc(centre, radius, &shallow, first as u32);
                     } else {
                         self.cover_by_capsule(centre, radius, &shallow, first as u32);

@@ -13,8 +13,6 @@
 //! √(|q − c|² − ρ²) for the point q that it hits: for a disc at most the longer of
 //! the two tangents, for a capsule at most the distance of the farther end plus the radius.
 
-use std::ops::Range;
-
 use env_model::geometry::cross;
 use env_model::{Point, Vector};
 
@@ -115,15 +113,6 @@ pub(crate) struct Origin {
     pub room: f64,
 }
 
-/// Centres that may matter: foci p and goal, with half the distance between the foci, half the greatest sum of
-/// distances, and the square of half its width.
-#[derive(Clone, Copy)]
-struct Ellipse {
-    major: f64,
-    focus: f64,
-    minor2: f64,
-}
-
 /// A sweep's buffers.
 #[derive(Debug, Default)]
 pub(crate) struct Sweep {
@@ -142,12 +131,6 @@ impl Sweep {
         self.occlusion.reset(axis);
         // Rounding must not lose a site between two limits.
         let room = from.room + terrain.tolerance();
-        let largest = terrain.largest();
-        // Centres: |p − c| + |c − goal| ≤ A + 2r.
-        let major = 0.5 * (room + 2.0 * largest);
-        let focus = 0.5 * distance;
-        let minor2 = (major * major - focus * focus).max(0.0);
-        let ellipse = Ellipse { major, focus, minor2 };
         if room >= 4.0 * terrain.span() {
             self.strip.clear();
             let mut more = false;
@@ -158,18 +141,14 @@ impl Sweep {
                     self.strip.push(((terrain.site(number).centre - from.point).norm_squared(), number as u32));
                 }
             }
-            self.sort();
-            let mut begin = 0;
-            while begin < self.strip.len() {
-                let end = (begin + 8).min(self.strip.len());
-                self.look(terrain, from, begin..end, &mut visit);
-                if end < self.strip.len() && self.is_closed(self.strip[end].0.sqrt(), from, largest, ellipse) {
-                    return true;
-                }
-                begin = end;
-            }
+            self.look(terrain, from, &mut visit);
             return more;
         }
+        let largest = terrain.largest();
+        // Centres: |p − c| + |c − goal| ≤ A + 2r.
+        let major = 0.5 * (room + 2.0 * largest);
+        let focus = 0.5 * distance;
+        let minor2 = (major * major - focus * focus).max(0.0);
         // Radii tell how dense obstacles lie, unless they are tiny.
         let step = (4.0 * largest).max(major / 32.0);
         let (mut begin, last) = (focus - major, focus + major);
@@ -179,9 +158,8 @@ impl Sweep {
             let x = (focus.clamp(begin, end) - focus) / major;
             let half = (minor2 * (1.0 - x * x).max(0.0)).sqrt();
             self.collect(terrain, from, [begin, end.min(last), half], room);
-            self.sort();
-            self.look(terrain, from, 0..self.strip.len(), &mut visit);
-            if end >= last || self.is_closed(end, from, largest, ellipse) {
+            self.look(terrain, from, &mut visit);
+            if end >= last || self.is_closed(end, from, largest, [major, focus, minor2]) {
                 return true;
             }
             begin = end;
@@ -189,13 +167,11 @@ impl Sweep {
         }
     }
 
-    fn sort(&mut self) {
-        self.strip.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    }
-
     /// Whether no centre in the ellipse at distance `end` or farther belongs to a site in sight.
-    fn is_closed(&mut self, end: f64, from: &Origin, largest: f64, ellipse: Ellipse) -> bool {
-        let Ellipse { major, focus, minor2 } = ellipse;
+    ///
+    /// The ellipse is given by half the greatest sum of distances, half the distance between its foci and the
+    /// square of half its width.
+    fn is_closed(&self, end: f64, from: &Origin, largest: f64, [major, focus, minor2]: [f64; 3]) -> bool {
         let rho = from.circle.rho.abs();
         // Centres are at least so far from the circle's; tangents at least √(D² − (ρ + r)²) long.
         let centres = end - rho;
@@ -230,11 +206,12 @@ impl Sweep {
         });
     }
 
-    /// Looks at collected sites, nearest first.
-    fn look(&mut self, terrain: &Terrain, from: &Origin, which: Range<usize>, visit: &mut impl FnMut(Sight)) {
+    /// Looks at the collected sites, nearest first.
+    fn look(&mut self, terrain: &Terrain, from: &Origin, visit: &mut impl FnMut(Sight)) {
         let Self { strip, occlusion } = self;
         let tolerance = terrain.tolerance();
-        for &(_, number) in &strip[which] {
+        strip.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        for &(_, number) in &*strip {
             let number = number as usize;
             if number == from.site {
                 continue;

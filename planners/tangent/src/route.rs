@@ -1,6 +1,5 @@
 //! A taut path: straight pieces joined by arcs, and its polyline.
 
-use env_model::geometry::{point_segment_distance, segment_segment_distance};
 use env_model::{Aabb, Point, Vector};
 
 use crate::bitangent::{OrientedCircle, perp};
@@ -73,7 +72,7 @@ impl Route {
                 let Some(piece) = terrain.piece(site) else { return };
                 let distance = piece.core_distance(centre);
                 // A disc inside the arc's own cannot be entered from outside.
-                let within = piece.from == piece.to && distance + piece.radius <= r;
+                let within = piece.is_disc() && distance + piece.radius <= r;
                 if distance < bulge + piece.radius && !within {
                     list.push(piece);
                 }
@@ -133,14 +132,7 @@ struct Surroundings<'a> {
 
 impl Surroundings<'_> {
     fn allow(&self, a: Point, apex: Point, b: Point) -> bool {
-        let clear = |piece: &Piece, p: Point, q: Point| {
-            let distance = if piece.from == piece.to {
-                point_segment_distance(piece.from, p, q)
-            } else {
-                segment_segment_distance(p, q, piece.from, piece.to)
-            };
-            distance >= piece.radius - self.tolerance
-        };
+        let clear = |piece: &Piece, p: Point, q: Point| piece.segment_distance(p, q) >= piece.radius - self.tolerance;
         self.bounds.is_none_or(|bounds| bounds.depth_of(apex) >= 0.0)
             && self.near.iter().all(|piece| clear(piece, a, apex) && clear(piece, apex, b))
     }

@@ -16,6 +16,7 @@
 //! Coordinates are relative to the start: that keeps scenes far from the origin accurate.
 
 use env_model::geometry::{cross, point_segment_distance, segment_segment_distance, segments_nearer_than};
+use env_model::probe::{Disc, Probe};
 use env_model::{Aabb, Core, Inflated, Point, Polygon, Vector, World};
 
 use crate::bitangent::perp;
@@ -45,8 +46,8 @@ pub(crate) struct Site {
     pub radius: f64,
     /// Distance to the goal, less twice the radius.
     detour: f64,
-    /// Square of how near segments may come to the centre; 0 but for discs.
-    limit2: f64,
+    /// What segments must keep off; nothing unless the piece here is a disc.
+    disc: Disc,
 }
 
 impl Site {
@@ -82,6 +83,20 @@ pub(crate) struct Piece {
 }
 
 impl Piece {
+    /// Whether it is a disc.
+    pub fn is_disc(&self) -> bool {
+        self.from == self.to
+    }
+
+    /// Distance of its segment from segment `a b`.
+    pub fn segment_distance(&self, a: Point, b: Point) -> f64 {
+        if self.is_disc() {
+            point_segment_distance(self.from, a, b)
+        } else {
+            segment_segment_distance(a, b, self.from, self.to)
+        }
+    }
+
     /// Distance of its segment from `p`.
     pub fn core_distance(&self, p: Point) -> f64 {
         point_segment_distance(p, self.from, self.to)
@@ -157,7 +172,7 @@ pub(crate) struct Terrain {
 impl Terrain {
     /// Forgets all obstacles.
     fn reset(&mut self, goal: Point, tolerance: f64) {
-        let end = |centre: Point| Site { centre, radius: 0.0, detour: (goal - centre).norm(), limit2: 0.0 };
+        let end = |centre: Point| Site { centre, radius: 0.0, detour: (goal - centre).norm(), disc: Disc::NONE };
         self.sites.clear();
         self.sites.extend([end(Point::origin()), end(goal)]);
         self.cones.clear();
@@ -245,9 +260,10 @@ impl Terrain {
 
     fn add_site(&mut self, centre: Point, radius: f64, cone: Cone, next: u32) {
         let detour = (self.sites[GOAL].centre - centre).norm() - 2.0 * radius;
-        let limit = if next as usize == self.sites.len() { (radius - self.tolerance).max(0.0) } else { 0.0 };
-        self.only_discs &= next as usize == self.sites.len();
-        self.sites.push(Site { centre, radius, detour, limit2: limit * limit });
+        let is_disc = next as usize == self.sites.len();
+        let disc = if is_disc { Disc::new(centre, radius - self.tolerance) } else { Disc::NONE };
+        self.only_discs &= is_disc;
+        self.sites.push(Site { centre, radius, detour, disc });
         self.cones.push(cone);
         self.next.push(next);
         self.owner.push(self.first.len() as u32 - 1);
@@ -426,10 +442,10 @@ impl Terrain {
         outside(a) || outside(b)
     }
 
-    /// Whether `segment` enters the piece that begins at `site` by more than the tolerance.
-    fn enters(&self, segment: &Segment, number: usize) -> bool {
+    /// Whether segment `a b` enters the piece that begins at site `number` by more than the tolerance.
+    fn enters(&self, probe: &Probe, [a, b]: [Point; 2], number: usize) -> bool {
         let site = &self.sites[number];
-        if segment.nearer_than(site.centre, site.limit2) {
+        if probe.enters(&site.disc) {
             return true;
         }
         let (end, limit) = (self.next[number], site.radius - self.tolerance);
@@ -437,16 +453,16 @@ impl Terrain {
             && end != NONE
             && end as usize != number
             && limit > 0.0
-            && segments_nearer_than(limit, segment.a, segment.b, site.centre, self.sites[end as usize].centre)
+            && segments_nearer_than(limit, a, b, site.centre, self.sites[end as usize].centre)
     }
 
     /// Adds an obstacle's pieces to `walls`.
     pub fn copy_walls(&self, obstacle: usize, walls: &mut Walls) {
         for number in self.sites_of(obstacle) {
-            let Site { centre, limit2, radius, .. } = self.sites[number];
+            let Site { centre, disc, radius, .. } = self.sites[number];
             match self.next[number] {
                 NONE => {}
-                end if end as usize == number => walls.discs.push((centre, limit2)),
+                end if end as usize == number => walls.discs.push(disc),
                 end => walls.capsules.push((centre, self.sites[end as usize].centre, radius - self.tolerance)),
             }
         }
@@ -454,10 +470,9 @@ impl Terrain {
 
     /// Whether segment `a b` enters one of `walls`, or leaves the bounds, by more than the tolerance.
     pub fn blocked_by(&self, walls: &Walls, a: Point, b: Point) -> bool {
-        let segment = Segment::new(a, b);
-        let fold = |discs: &[(Point, f64)]| {
-            discs.iter().fold(false, |hit, &(centre, limit2)| hit | segment.nearer_than(centre, limit2))
-        };
+        let probe = Probe::new(a, b);
+        // In eights without a branch: most are missed.
+        let fold = |discs: &[Disc]| discs.iter().fold(false, |hit, disc| hit | probe.enters(disc));
         self.leaves(a, b)
             || walls.discs.chunks(8).any(fold)
             || walls.capsules.iter().any(|&(c, d, limit)| limit > 0.0 && segments_nearer_than(limit, a, b, c, d))
@@ -465,24 +480,21 @@ impl Terrain {
 
     /// Whether segment `a b` enters an obstacle, or leaves the bounds, by more than the tolerance.
     pub fn blocks<B: BroadPhase>(&self, near: &B, a: Point, b: Point) -> bool {
-        let segment = Segment::new(a, b);
-        self.leaves(a, b) || near.any_along(a, b, |o| self.sites_of(o).any(|number| self.enters(&segment, number)))
+        let probe = Probe::new(a, b);
+        self.leaves(a, b)
+            || near.any_along(a, b, |o| self.sites_of(o).any(|number| self.enters(&probe, [a, b], number)))
     }
 
     /// The obstacle that segment `a b` enters deepest, by more than the tolerance; the lower number wins a tie.
     pub fn deepest<B: BroadPhase>(&self, near: &B, a: Point, b: Point) -> Option<usize> {
-        let segment = Segment::new(a, b);
+        let probe = Probe::new(a, b);
         let mut worst: Option<(f64, usize)> = None;
         let mut look = |number: usize| {
-            if self.enters(&segment, number)
+            if self.enters(&probe, [a, b], number)
                 && let Some(piece) = self.piece(number)
             {
                 let obstacle = self.owner(number);
-                let depth = if piece.from == piece.to {
-                    piece.radius - point_segment_distance(piece.from, a, b)
-                } else {
-                    piece.radius - segment_segment_distance(a, b, piece.from, piece.to)
-                };
+                let depth = piece.radius - piece.segment_distance(a, b);
                 if worst.is_none_or(|(d, o)| depth > d || (depth == d && obstacle < o)) {
                     worst = Some((depth, obstacle));
                 }
@@ -500,36 +512,10 @@ impl Terrain {
     }
 }
 
-/// A straight piece of a path.
-struct Segment {
-    a: Point,
-    b: Point,
-    d: Vector,
-    len2: f64,
-}
-
-impl Segment {
-    fn new(a: Point, b: Point) -> Self {
-        let d = b - a;
-        Self { a, b, d, len2: d.norm_squared() }
-    }
-
-    /// Whether it comes nearer to `centre` than √`limit2`.
-    fn nearer_than(&self, centre: Point, limit2: f64) -> bool {
-        let (v, w) = (centre - self.a, centre - self.b);
-        let (along, across) = (v.dot(&self.d), cross(v, self.d));
-        // No short circuit: branches cost more than what they save.
-        ((along > 0.0) & (along < self.len2) & (across * across < limit2 * self.len2))
-            | (v.norm_squared() < limit2)
-            | (w.norm_squared() < limit2)
-    }
-}
-
 /// Pieces that segments are tested against first.
 #[derive(Debug, Default)]
 pub(crate) struct Walls {
-    /// Centres, and squares of how near segments may come.
-    discs: Vec<(Point, f64)>,
+    discs: Vec<Disc>,
     /// Ends, and how near segments may come.
     capsules: Vec<(Point, Point, f64)>,
 }

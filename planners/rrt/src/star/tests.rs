@@ -1,22 +1,11 @@
 use std::ops::ControlFlow;
 
 use env_model::scene::Field;
-use env_model::{Obstacle, Scene, Shape};
+use env_model::{Scene, Shape};
 use planner_api::{Budget, Frame, Observer};
 
 use super::*;
-
-fn paper() -> Scene {
-    Scene {
-        name: "paper".into(),
-        unit: "cm".into(),
-        robot_radius: 0.0,
-        start: [200.0, 150.0],
-        goal: [400.0, 260.0],
-        field: None,
-        obstacles: [[240.0, 160.0], [280.0, 200.0], [320.0, 230.0]].map(|c| Obstacle::disc(c.into(), 16.0)).to_vec(),
-    }
-}
+use crate::paper;
 
 fn planners(settings: &StarSettings) -> [RrtStar; 2] {
     [RrtStar::new(settings.clone()).unwrap(), RrtStar::informed(settings.clone()).unwrap()]
