@@ -279,11 +279,9 @@ fn what_is_to_come_says_so() {
     for args in [
         &["run", "small.toml", "--resume"][..],
         &["small.toml", "--shard", "1/2"],
-        &["run", "--isolate"],
         &["status", "out"],
         &["merge", "a", "b", "--out", "c"],
         &["compare", "a", "b"],
-        &["worker"],
         &["report", "out", "--format", "ompl"],
         &["report", "out", "--format", "csv,ioh"],
     ] {

@@ -122,7 +122,7 @@ struct RunArgs {
     /// Not yet: only part I of N, counted from 1
     #[arg(long, value_name = "I/N")]
     shard: Option<String>,
-    /// Not yet: every planner in a process of its own
+    /// Every planner in a process of its own: a crash, a hang or hunger for memory ends one run alone
     #[arg(long)]
     isolate: bool,
 }
