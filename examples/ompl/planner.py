@@ -4,11 +4,11 @@ The world and the protocol are those of `../plain-python`: every motion is
 tested exactly against the shapes, by OMPL's `MotionValidator`, not at sampled
 points. What counts as what:
 
-- evaluations: motions (segments) tested. OMPL does not count how often it asks
-  for a cost; beyond the budget every motion is refused untested.
+- evaluations: motions and single states tested, which are the collision checks
+  too. OMPL does not count how often it asks for a cost. Beyond the budget
+  nothing is tested: every motion is refused.
 - iterations: how often OMPL asked whether to stop, which it does at least once
   a turn of its main loop.
-- collision checks: motions and single states tested.
 
 Sources: Sucan, Moll & Kavraki, *The Open Motion Planning Library* (2012),
 doi:10.1109/MRA.2012.2205651; https://ompl.kavrakilab.org.
@@ -23,12 +23,12 @@ from typing import Any
 from ompl import base, geometric, util
 
 sys.path.append(str(Path(__file__).resolve().parent.parent / "plain-python"))
-from touchline_protocol import Point, Run, path_length, read_settings, serve  # noqa: E402
-from world import World  # noqa: E402
+from touchline_protocol import Point, Run, path_length, read_settings, serve
+from world import World
 
 # Whether each improves its path for as long as it may run.
-PLANNERS = {"RRTConnect": False, "RRTstar": True, "InformedRRTstar": True, "BITstar": True, "AORRTC": True}
-WITH_RANGE = ("RRTConnect", "RRTstar", "InformedRRTstar", "AORRTC")
+PLANNERS = {"RRTConnect": False, "RRTstar": True, "InformedRRTstar": True, "BITstar": True}
+WITH_RANGE = ("RRTConnect", "RRTstar", "InformedRRTstar")
 
 
 @dataclass
@@ -37,7 +37,7 @@ class Settings:
 
     planner: str = "RRTConnect"
     range: float = 0.0  # longest motion, scene units; 0: OMPL's choice, a fifth of the space's diagonal
-    motions: int = 20000  # motions tested before the planner stops of itself
+    checks: int = 20000  # motions and states tested before the planner stops of itself
 
     def __post_init__(self) -> None:
         if self.planner not in PLANNERS:
@@ -46,8 +46,8 @@ class Settings:
             raise ValueError(f"range = {self.range}: expected at least 0")
         if self.range > 0.0 and self.planner not in WITH_RANGE:
             raise ValueError(f"range = {self.range}: {self.planner} has none; expected 0")
-        if self.motions < 1:
-            raise ValueError(f"motions = {self.motions}: expected at least 1")
+        if self.checks < 1:
+            raise ValueError(f"checks = {self.checks}: expected at least 1")
 
 
 def point(state: base.State) -> Point:
@@ -55,31 +55,45 @@ def point(state: base.State) -> Point:
     return (state[0], state[1])
 
 
+class Counter:
+    """Counts what is tested, and says when nothing more may be."""
+
+    def __init__(self, run: Run, most: float) -> None:
+        self.run, self.most = run, most
+
+    def spent(self) -> bool:
+        """Whether as much has been tested as may be."""
+        return self.run.evaluations >= self.most
+
+    def count(self) -> bool:
+        """Counts one test, unless all is spent."""
+        allowed = not self.spent()
+        self.run.evaluations += allowed
+        return allowed
+
+
 class Validity(base.StateValidityChecker):
     """Exact test of a single state."""
 
-    def __init__(self, space: base.SpaceInformation, world: World) -> None:
+    def __init__(self, space: base.SpaceInformation, world: World, counter: Counter) -> None:
         super().__init__(space)
-        self.world = world
+        self.world, self.counter = world, counter
 
     def isValid(self, state: base.State) -> bool:  # noqa: N802
-        """Whether the robot can stand there."""
-        return self.world.free(point(state))
+        """Whether the robot can stand there. Untested ones pass: OMPL may draw until one does; no motion follows."""
+        return not self.counter.count() or self.world.free(point(state))
 
 
 class Motions(base.MotionValidator):
-    """Exact test of a motion, counted as one evaluation."""
+    """Exact test of a motion."""
 
-    def __init__(self, space: base.SpaceInformation, world: World, run: Run, most: float) -> None:
+    def __init__(self, space: base.SpaceInformation, world: World, counter: Counter) -> None:
         super().__init__(space)
-        self.world, self.run, self.most = world, run, most
+        self.world, self.counter = world, counter
 
     def checkMotion(self, a: base.State, b: base.State) -> bool:  # noqa: N802
         """Whether the robot can go straight from `a` to `b`."""
-        if self.run.evaluations >= self.most:
-            return False
-        self.run.evaluations += 1
-        return self.world.clear(point(a), point(b))
+        return self.counter.count() and self.world.clear(point(a), point(b))
 
 
 class Search:
@@ -87,7 +101,7 @@ class Search:
 
     def __init__(self, world: World, settings: Settings, run: Run) -> None:
         self.run = run
-        self.most = min(settings.motions, run.max_evaluations)
+        self.counter = Counter(run, min(settings.checks, run.max_evaluations))
         self.anytime = PLANNERS[settings.planner]
         plane = base.RealVectorStateSpace(2)
         bounds = base.RealVectorBounds(2)
@@ -96,7 +110,7 @@ class Search:
             bounds.setHigh(k, world.high[k])
         plane.setBounds(bounds)
         space = base.SpaceInformation(plane)
-        self.checks = (Validity(space, world), Motions(space, world, run, self.most))
+        self.checks = (Validity(space, world, self.counter), Motions(space, world, self.counter))
         space.setStateValidityChecker(self.checks[0])
         space.setMotionValidator(self.checks[1])
         space.setup()
@@ -116,7 +130,7 @@ class Search:
         """OMPL's question once a turn; the best cost so far is read on the way."""
         if self.anytime and math.isfinite(cost := self.planner.bestCost().value()):
             self.run.found(cost)
-        if self.run.spent() or self.run.evaluations >= self.most:
+        if self.run.spent() or self.counter.spent():
             return True
         self.run.iterations += 1
         return False

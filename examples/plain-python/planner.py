@@ -10,6 +10,7 @@ import heapq
 import math
 import random
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 from touchline_protocol import Point, Run, path_length, read_settings, serve
@@ -69,7 +70,7 @@ def lattice_path(world: World, spacing: float, run: Run) -> list[Point]:
 
 def point_at(path: list[Point], along: float) -> tuple[int, Point]:
     """The point at arc length `along`, and the index of the segment that it lies on."""
-    for index, (a, b) in enumerate(zip(path, path[1:], strict=False)):
+    for index, (a, b) in enumerate(pairwise(path)):
         length = math.dist(a, b)
         if along <= length:
             t = along / length if length > 0.0 else 0.0

@@ -6,6 +6,7 @@ import sys
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field, fields
+from itertools import pairwise
 from typing import Any, TypeVar
 
 Point = tuple[float, float]
@@ -86,7 +87,7 @@ class Run:
 
 def path_length(path: list[Point]) -> float:
     """The sum of the segments' lengths."""
-    return sum(math.dist(a, b) for a, b in zip(path, path[1:], strict=False))
+    return sum(math.dist(a, b) for a, b in pairwise(path))
 
 
 def serve(plan: Callable[[dict[str, Any]], dict[str, Any]]) -> None:

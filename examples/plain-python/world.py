@@ -83,7 +83,7 @@ def bounding_points(obstacle: dict[str, Any]) -> list[Point]:
 
 
 class World:
-    """What a planner asks: is this segment clear, and within which box may it search?"""
+    """Answers what a planner asks: is this segment clear, and within which box may it search."""
 
     def __init__(self, scene: dict[str, Any]) -> None:
         """Compiles the `scene` of a request; a ValueError when its start or goal is not free."""
