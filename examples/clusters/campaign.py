@@ -1,8 +1,8 @@
 """A comparison as a list of jobs, and their answers as tables: what the drivers for Dask and Ray share.
 
 Reads the resolved comparison that `touchline run` leaves in its folder
-(`comparison.toml` and `scenes/`), or any that names scene files and no
-generators or sweeps. Standard library only; Python 3.11 or newer.
+(`comparison.toml` and `scenes/`): scene files instead of generators, sweeps
+and budgets spelled out. Standard library only; Python 3.11 or newer.
 """
 
 import argparse
@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 MASK = 2**64 - 1
-RESERVED = ("kind", "budget", "command", "hard_limit_ms", "memory_mb")
+RESERVED = ("kind", "group", "varied", "budget", "hard_limit_ms", "memory_mb")
 COUNTS = ("iterations", "evaluations", "collision_checks", "time_us", "cpu_us")
 COLUMNS = ("scene", "planner", "repeat", "seed", "status", "length", *COUNTS, "error")
 
@@ -58,34 +58,41 @@ def run_seed(comparison: int, scene: str, repeat: int) -> int:
 
 
 def jobs(comparison: Path) -> list[Job]:
-    """Every run of the comparison file, by scene, planner and repeat."""
+    """Every run of the resolved comparison, scene by scene."""
     table = tomllib.loads(comparison.read_text(encoding="utf-8"))
-    scenes = []
-    for entry in table["scenes"]:
-        if not isinstance(entry, str):
-            raise SystemExit(f"{comparison}: {entry} is no scene file: resolve it by `touchline run`")
-        scenes.append(tomllib.loads((comparison.parent / entry).read_text(encoding="utf-8")))
+    files = [*table["scenes"], *table.get("tuning", [])]
+    if "budget" in table or not all(isinstance(file, str) for file in files):
+        raise SystemExit(
+            f"{comparison} is as written by hand; expected the one that `touchline run` left in its folder"
+        )
+    scenes = [tomllib.loads((comparison.parent / file).read_text(encoding="utf-8")) for file in files]
     made = []
     for scene in scenes:
-        for label, planner in table["planner"].items():
-            kind = planner.get("kind", label)
-            if kind == "external":
-                raise SystemExit(f"{comparison}: {label} is external, which `touchline worker` does not run")
-            budget = planner.get("budget", table.get("budget", {}))
-            settings = {key: value for key, value in planner.items() if key not in RESERVED}
-            # The bench's own rule: twice the time budget plus 1 s, or 60 s.
-            limit = 2 * budget["time_ms"] + 1000 if "time_ms" in budget else 60000
-            for repeat in range(table["repeats"]):
-                request = {
-                    "kind": kind,
-                    "scene": scene,
-                    "settings": settings,
-                    "seed": run_seed(table["seed"], scene["name"], repeat),
-                    "budget": budget,
-                }
-                seconds = planner.get("hard_limit_ms", limit) / 1e3
-                made.append(Job(scene["name"], label, repeat, request, seconds))
+        for repeat in range(table["repeats"]):
+            seed = run_seed(table["seed"], scene["name"], repeat)
+            for label, planner in table["planner"].items():
+                made.append(Job(scene["name"], label, repeat, request(planner, scene, seed), hard_limit(planner)))
     return made
+
+
+def request(planner: dict[str, Any], scene: dict[str, Any], seed: int) -> dict[str, Any]:
+    """What `touchline worker` is asked for one run of the planner with this table."""
+    if planner["kind"] == "external":
+        raise SystemExit(f"{planner['command']} is external, which `touchline worker` does not run")
+    settings = {key: value for key, value in planner.items() if key not in RESERVED}
+    return {
+        "kind": planner["kind"],
+        "scene": scene,
+        "settings": settings,
+        "seed": seed,
+        "budget": planner.get("budget", {}),
+    }
+
+
+def hard_limit(planner: dict[str, Any]) -> float:
+    """Seconds to wait for an answer: the bench's rule is twice the time budget plus 1 s, or 60 s."""
+    time_ms = planner.get("budget", {}).get("time_ms")
+    return planner.get("hard_limit_ms", 60000 if time_ms is None else 2 * time_ms + 1000) / 1e3
 
 
 def result(job: Job, answer: dict[str, Any]) -> Result:

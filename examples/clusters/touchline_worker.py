@@ -3,7 +3,6 @@
 import json
 import queue
 import subprocess
-import tempfile
 import threading
 from typing import Any
 
@@ -11,7 +10,8 @@ from typing import Any
 class Worker:
     """One `touchline worker` process, started at the first request and again after it has ended.
 
-    Not to be shared between threads: an answer follows its request.
+    Not to be shared between threads: an answer follows its request. What the
+    worker says on standard error goes to that of this process.
     """
 
     def __init__(self, program: str) -> None:
@@ -38,7 +38,9 @@ class Worker:
             self.close()
             return {"status": "timeout", "error": f"no answer within {timeout:g} s"}
         if text is None:
-            return {"status": "crashed", "error": self._last_words()}
+            code = self.process.wait()
+            self.process = None
+            return {"status": "crashed", "error": f"the worker ended with exit code {code}"}
         answer = json.loads(text)
         if answer.get("id") != self.asked:
             self.close()
@@ -53,12 +55,10 @@ class Worker:
             self.process = None
 
     def _start(self) -> None:
-        self.stderr = tempfile.TemporaryFile(mode="w+")
         self.process = subprocess.Popen(
             [self.program, "worker"],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
-            stderr=self.stderr,
             text=True,
             encoding="utf-8",
         )
@@ -79,10 +79,3 @@ class Worker:
         for line in process.stdout:
             lines.put(line)
         lines.put(None)
-
-    def _last_words(self) -> str:
-        code = self.process.wait()
-        self.process = None
-        self.stderr.seek(0)
-        tail = self.stderr.read().splitlines()[-5:]
-        return "\n".join([f"the worker ended with exit code {code}", *tail])

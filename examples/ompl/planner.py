@@ -37,7 +37,7 @@ class Settings:
 
     planner: str = "RRTConnect"
     range: float = 0.0  # longest motion, scene units; 0: OMPL's choice, a fifth of the space's diagonal
-    checks: int = 20000  # motions and states tested before the planner stops of itself
+    checks: int = 5000  # motions and states tested before the planner stops of itself
 
     def __post_init__(self) -> None:
         if self.planner not in PLANNERS:
