@@ -18,6 +18,6 @@ python3 -m venv "$work/venv"
 # Ray keeps a token in its user's folder.
 HOME="$work" "$work/venv/bin/python" "$here/with_ray.py" "$work/bench/comparison.toml" --out "$work/ray" --program "$touchline"
 for driver in dask ray; do
-    "$work/venv/bin/python" "$here/same_runs.py" "$work/bench" "$work/$driver"
+    "$work/venv/bin/python" "$here/../same_runs.py" "$work/bench" "$work/$driver"
 done
 "$work/venv/bin/python" "$here/test_worker.py" "$touchline"

@@ -1,7 +1,8 @@
-"""Checks that a driver's folder tells of the same runs as the bench's: `same_runs.py BENCH DRIVER`.
+"""Checks that two folders tell of the same runs: `same_runs.py BENCH OTHER`.
 
-Rows are compared column by column as far as the driver has them, times apart;
-paths number by number. Exits with 1 at any difference.
+BENCH is that of `touchline run`, OTHER another one or that of a driver for clusters.
+What both have of a row is compared, times apart, and
+every number of the paths. Exits with 1 at any difference.
 """
 
 import csv
@@ -34,19 +35,20 @@ def same_length(a: str, b: str) -> bool:
 
 def main() -> None:
     """The command."""
-    bench, driver = map(Path, sys.argv[1:3])
-    expected, found = rows(bench), rows(driver)
+    bench, other = map(Path, sys.argv[1:3])
+    expected, found = rows(bench), rows(other)
     wrong = [f"{key}: only in one of the two" for key in expected.keys() ^ found.keys()]
     for key in sorted(expected.keys() & found.keys()):
         a, b = expected[key], found[key]
         wrong += [f"{key}: {c} = {b[c]!r}; expected {a[c]!r}" for c in EXACT if a[c] != b[c]]
         if not same_length(a["length"], b["length"]):
             wrong.append(f"{key}: length = {b['length']}; expected {a['length']}")
-    ways, ways_found = paths(bench), paths(driver)
-    wrong += [f"{key}: another path" for key in sorted(ways.keys() | ways_found.keys()) if ways.get(key) != ways_found.get(key)]
+    ways, other_ways = paths(bench), paths(other)
+    keys = sorted(ways.keys() | other_ways.keys())
+    wrong += [f"{key}: another path" for key in keys if ways.get(key) != other_ways.get(key)]
     if wrong or not expected or not ways:
         sys.exit("\n".join(["not the same runs:", *wrong[:20]]))
-    print(f"{driver}: {len(expected)} runs and {len(ways)} paths as in {bench}")
+    print(f"{other}: {len(expected)} runs and {len(ways)} paths as in {bench}")
 
 
 if __name__ == "__main__":
