@@ -122,8 +122,7 @@ def write(results: Iterable[Result], out: Path) -> None:
     with (out / "paths.jsonl").open("w", encoding="utf-8") as file:
         for r in ordered:
             key = {name: r.row[name] for name in ("scene", "planner", "repeat")}
-            if r.path:
-                file.write(json.dumps({**key, "path": r.path}) + "\n")
+            file.write(json.dumps({**key, "path": r.path}) + "\n")
 
 
 def arguments(description: str) -> argparse.Namespace:
