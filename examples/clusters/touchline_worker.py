@@ -4,6 +4,7 @@ import json
 import queue
 import subprocess
 import threading
+from contextlib import suppress
 from typing import Any
 
 
@@ -39,7 +40,7 @@ class Worker:
             return {"status": "timeout", "error": f"no answer within {timeout:g} s"}
         if text is None:
             code = self.process.wait()
-            self.process = None
+            self.close()
             return {"status": "crashed", "error": f"the worker ended with exit code {code}"}
         answer = json.loads(text)
         if answer.get("id") != self.asked:
@@ -52,6 +53,8 @@ class Worker:
         if self.process is not None:
             self.process.kill()
             self.process.wait()
+            with suppress(OSError):
+                self.process.stdin.close()
             self.process = None
 
     def _start(self) -> None:
@@ -67,15 +70,14 @@ class Worker:
 
     @staticmethod
     def _send(process: subprocess.Popen[str], line: str) -> None:
-        try:
+        # Where the process has ended, the reader says so.
+        with suppress(OSError, ValueError):
             process.stdin.write(line + "\n")
             process.stdin.flush()
-        except OSError:
-            # It has ended: the reader says so.
-            pass
 
     @staticmethod
     def _receive(process: subprocess.Popen[str], lines: "queue.Queue[str | None]") -> None:
-        for line in process.stdout:
-            lines.put(line)
+        with process.stdout:
+            for line in process.stdout:
+                lines.put(line)
         lines.put(None)
