@@ -31,6 +31,8 @@ impl Planner for Refined {
             status = match refiner.refine(problem, run, plan)? {
                 Refinement::Improved | Refinement::Repaired => Status::Solved,
                 Refinement::Unchanged => status,
+                // A planner cut short might have found what cannot be repaired now.
+                Refinement::NotRepaired if status == Status::BudgetSpent => status,
                 Refinement::NotRepaired => Status::NotFound,
                 Refinement::BudgetSpent => Status::BudgetSpent,
             };
