@@ -3,6 +3,7 @@
 import math
 import tomllib
 import unittest
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -35,7 +36,7 @@ class Ompl(unittest.TestCase):
                 answer = planner.plan(asked)
                 world, path = World(asked["scene"]), answer["path"]
                 self.assertEqual((path[0], path[-1]), (world.start, world.goal))
-                self.assertTrue(all(world.clear(a, b) for a, b in zip(path, path[1:], strict=False)))
+                self.assertTrue(all(world.clear(a, b) for a, b in pairwise(path)))
                 self.assertEqual(answer["status"], "budget_spent" if anytime else "solved")
                 self.assertLessEqual(answer["evaluations"], 1500)
                 # Start and goal are looked at once more, when the world is compiled.

@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tomllib
 import unittest
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +19,7 @@ SCENES = HERE.parent.parent / "configs" / "scenes"
 NAMES = ("lu-sun-2012", "mixed-shapes", "trap", "corridor", "fang-2009-polygons")
 
 
-def request(scene: dict[str, Any], **changes: Any) -> dict[str, Any]:  # noqa: ANN401
+def request(scene: dict[str, Any], **changes: Any) -> dict[str, Any]:
     """A request with the given fields in place of the usual ones."""
     return {"protocol": 1, "id": 5, "scene": scene, "settings": {}, "seed": 7, "budget": {}, **changes}
 
@@ -94,7 +95,7 @@ class Planning(unittest.TestCase):
                 answer = planner.plan(request(scene(name)))
                 world, path = World(scene(name)), answer["path"]
                 self.assertEqual((answer["status"], path[0], path[-1]), ("solved", world.start, world.goal))
-                self.assertTrue(all(world.clear(a, b) for a, b in zip(path, path[1:], strict=False)))
+                self.assertTrue(all(world.clear(a, b) for a, b in pairwise(path)))
                 costs = [cost for _, _, cost in answer["progress"]]
                 self.assertEqual(costs, sorted(costs, reverse=True))
                 self.assertEqual(costs[-1], answer["cost"])
