@@ -230,26 +230,10 @@ mod tests {
 
     fn record(planner: &str, repeat: u32) -> RunRecord {
         RunRecord {
-            scene: "a-scene".into(),
-            planner: planner.into(),
-            repeat,
-            seed: (1 << 53) - 1,
             status: RunStatus::NotFound,
-            valid: false,
-            length: None,
-            gap: None,
-            clearance_min: None,
-            turning: None,
-            iterations: 0,
-            evaluations: 0,
-            collision_checks: 0,
             time_us: 0.25,
             cpu_us: 1234.567,
-            error: None,
-            cost: None,
-            terms: Vec::new(),
-            path: Vec::new(),
-            progress: Vec::new(),
+            ..RunRecord::empty("a-scene", planner, repeat, (1 << 53) - 1)
         }
     }
 
@@ -379,9 +363,9 @@ detour,a-scene,2,1,inf,inf,inf,10.333333333333334,inf,0.25,4010
             (run.cost, run.terms) = (None, Vec::new());
         }
         assert_eq!(Store::open(&folder).unwrap().read().unwrap().results, results);
-        db.execute_batch("UPDATE campaign SET schema = 3").unwrap();
+        db.execute_batch("UPDATE campaign SET schema = 4").unwrap();
         let refusal = Store::open(&folder).err().unwrap().to_string();
-        assert!(refusal.contains("schema version 3; this program reads versions 1 to 2"), "{refusal}");
+        assert!(refusal.contains("schema version 4; this program reads versions 1 to 3"), "{refusal}");
         drop(db);
         fs::remove_dir_all(&folder).unwrap();
     }

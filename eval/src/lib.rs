@@ -23,6 +23,7 @@ pub mod store;
 pub mod table;
 pub mod trace;
 pub mod verdict;
+pub mod work;
 
 #[cfg(test)]
 mod testing;
