@@ -6,7 +6,7 @@ use std::path::Path;
 use env_model::scene::Field;
 use env_model::{Aabb, CellGrid, Columns, Obstacle, Point, Scene, Vector, World, path_length};
 use eval::report::{Language, html};
-use eval::results::{Manifest, Optimum, PlannerInfo, Results, RunRecord, RunStatus, SceneResult};
+use eval::results::{Manifest, Optimum, PlannerInfo, Results, RunRecord, RunStatus, SceneResult, SceneSet};
 use eval::snapshot::{Ruler, Snapshot, state};
 use planner_api::seed::splitmix64;
 use planner_api::{Candidates, CellState, CellsView, ForcesView, Frame, PopulationView, SwarmView, TreeView, View};
@@ -55,7 +55,7 @@ impl Demo<'_> {
     fn add(&mut self, label: &str, path: &[Point], terms: &[(&str, f64)], view: Option<View<'_>>, generations: usize) {
         let valid = !path.is_empty() && self.world.path_free(path);
         let length = path_length(path);
-        self.results.planners.push(PlannerInfo { label: label.into(), kind: "demo".into(), settings: String::new() });
+        self.results.planners.push(PlannerInfo::plain(label, "demo", ""));
         self.results.runs.push(RunRecord {
             scene: self.scene.name.clone(),
             planner: label.into(),
@@ -77,6 +77,7 @@ impl Demo<'_> {
             terms: terms.iter().map(|(n, v)| ((*n).to_owned(), *v)).collect(),
             path: path.to_vec(),
             progress: Vec::new(),
+            overhead_us: None,
         });
         let Some(view) = view else { return };
         let frame = Frame { stage: "demo", iteration: 100, evaluations: 2000, best_cost: 1.0, view };
@@ -115,6 +116,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         scenes: vec![SceneResult {
             scene: scene.clone(),
             optimum: Optimum { length: None, path: Vec::new(), reason: Some("made up".into()) },
+            set: SceneSet::Test,
         }],
         runs: Vec::new(),
         snapshots: Vec::new(),

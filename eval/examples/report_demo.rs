@@ -10,7 +10,7 @@ use env_model::scene::Field;
 use env_model::{Obstacle, Point, Scene, Shape, World, path_length};
 use eval::report::svg::{PathLayer, scene_svg};
 use eval::report::{Language, html};
-use eval::results::{Manifest, Optimum, PlannerInfo, Progress, Results, RunRecord, RunStatus, SceneResult};
+use eval::results::{Manifest, Optimum, PlannerInfo, Progress, Results, RunRecord, RunStatus, SceneResult, SceneSet};
 use planner_api::seed::splitmix64;
 
 /// Uniform numbers in [0, 1); quality hardly matters here.
@@ -138,6 +138,7 @@ fn record(scene: &Scene, world: &World, m: &Manner, repeat: u32, random: &mut Ra
         terms: Vec::new(),
         path,
         progress,
+        overhead_us: None,
     }
 }
 
@@ -175,14 +176,12 @@ fn campaign(name: &str, scenes: Vec<Scene>, known: bool, repeats: u32) -> Result
         for run in &mut runs[first..] {
             run.gap = optimum.length.zip(run.length).filter(|_| run.valid).map(|(o, l)| l / o - 1.0);
         }
-        results.push(SceneResult { scene, optimum });
+        results.push(SceneResult { scene, optimum, set: SceneSet::Test });
     }
     let planner = |m: &Manner| {
-        PlannerInfo {
-        label: m.label.to_owned(),
-        kind: m.label.split("-no").next().unwrap_or("pso").to_owned(),
-        settings: "particles = 20\niterations = 400\ncolumns = 20\nbounds = \"stop\"\nvelocity_limit = 0.5\ninertia = { from = 0.9, to = 0.4 }\n".to_owned(),
-    }
+        let kind = m.label.split("-no").next().unwrap_or("pso");
+        let settings = "particles = 20\niterations = 400\ncolumns = 20\nbounds = \"stop\"\nvelocity_limit = 0.5\ninertia = { from = 0.9, to = 0.4 }\n";
+        PlannerInfo::plain(m.label, kind, settings)
     };
     Ok(Results {
         name: name.to_owned(),
@@ -202,7 +201,7 @@ fn campaign(name: &str, scenes: Vec<Scene>, known: bool, repeats: u32) -> Result
             started: "2026-01-01T12:00:00Z".into(),
             finished: "2026-01-01T12:00:11Z".into(),
             identity: "0123456789abcdef0123456789abcdef".into(),
-            notes: Vec::new(),
+            ..Manifest::default()
         },
     })
 }

@@ -5,8 +5,8 @@ use std::time::Instant;
 use env_model::{Scene, SceneError, World};
 use planner_api::{PlanError, Problem};
 
-use crate::config::{BudgetSpec, Comparison};
-use crate::results::{Optimum, PlannerInfo, Results, SceneResult};
+use crate::config::{BudgetSpec, Comparison, SceneEntry};
+use crate::results::{Optimum, PlannerInfo, Results, SceneResult, SceneSet};
 use crate::seeds::fnv1a_128;
 use crate::{machine, optimum};
 
@@ -18,6 +18,8 @@ pub struct Arena {
     pub world: World,
     /// How long that took, µs.
     pub compile_us: f64,
+    /// What it is for.
+    pub set: SceneSet,
 }
 
 impl Arena {
@@ -27,7 +29,7 @@ impl Arena {
         let world = World::new(&scene)?;
         let compile_us = micros(began);
         scene.validate_ends(&world)?;
-        Ok(Self { scene, world, compile_us })
+        Ok(Self { scene, world, compile_us, set: SceneSet::Test })
     }
 
     /// From the scene's start to its goal.
@@ -37,7 +39,7 @@ impl Arena {
 
     /// The scene and its exact optimum, or why that is not known.
     pub fn result(&self) -> SceneResult {
-        SceneResult { scene: self.scene.clone(), optimum: self.optimum() }
+        SceneResult { scene: self.scene.clone(), optimum: self.optimum(), set: self.set }
     }
 
     fn optimum(&self) -> Optimum {
@@ -64,7 +66,8 @@ pub struct Campaign {
 impl Campaign {
     /// Compiles every scene.
     pub fn new(comparison: Comparison) -> Result<Self, SceneError> {
-        let arenas = comparison.scenes.iter().cloned().map(Arena::new).collect::<Result<_, _>>()?;
+        let arena = |entry: &SceneEntry| Ok(Arena { set: entry.set, ..Arena::new(entry.scene.clone())? });
+        let arenas = comparison.scenes.iter().map(arena).collect::<Result<_, SceneError>>()?;
         Ok(Self { comparison, arenas })
     }
 
@@ -78,7 +81,7 @@ impl Campaign {
         let mut text = format!("touchline {}\0{}", env!("CARGO_PKG_VERSION"), self.comparison.to_toml());
         for scene in &self.comparison.scenes {
             text.push('\0');
-            text.push_str(&scene.to_toml());
+            text.push_str(&scene.scene.to_toml());
         }
         format!("{:032x}", fnv1a_128(text.as_bytes()))
     }
@@ -123,7 +126,14 @@ impl Campaign {
                         // Before the settings, whose last lines may belong to a sub-table.
                         settings = format!("budget = {budget}\n{settings}");
                     }
-                    PlannerInfo { label: p.label.clone(), kind: p.kind.clone(), settings }
+                    PlannerInfo {
+                        label: p.label.clone(),
+                        kind: p.kind.clone(),
+                        settings,
+                        group: p.group.clone(),
+                        varied: p.varied.clone(),
+                        budget: p.budget,
+                    }
                 })
                 .collect(),
             scenes: self.arenas.iter().map(Arena::result).collect(),

@@ -22,6 +22,7 @@ pub mod store;
 pub mod table;
 pub mod trace;
 pub mod verdict;
+pub mod work;
 
 #[cfg(test)]
 mod testing;

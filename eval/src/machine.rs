@@ -14,9 +14,7 @@ pub fn manifest(jobs: usize) -> Manifest {
         cores: std::thread::available_parallelism().map_or(1, usize::from),
         jobs,
         started: now(),
-        finished: String::new(),
-        identity: String::new(),
-        notes: Vec::new(),
+        ..Manifest::default()
     }
 }
 

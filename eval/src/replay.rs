@@ -83,9 +83,10 @@ fn replay(entry: &PlannerEntry, arena: &Arena, record: &RunRecord, watcher: &mut
     let iterations = if spec.time_ms.is_some() { Some(record.iterations) } else { spec.iterations };
     let budget = Budget { iterations, evaluations: spec.evaluations, deadline: None };
     let mut plan = Plan::new();
+    let mut planner = entry.instance()?;
     let outcome = catch_unwind(AssertUnwindSafe(|| {
         let mut run = Run::new(record.seed).with_budget(budget).with_observer(watcher);
-        (entry.make)().plan_into(&problem, &mut run, &mut plan)
+        planner.plan_into(&problem, &mut run, &mut plan)
     }));
     outcome.ok()?.ok()?;
     Some(plan.path == record.path)

@@ -3,6 +3,7 @@
 use env_model::{Point, Scene};
 use serde::{Deserialize, Serialize};
 
+use crate::config::BudgetSpec;
 use crate::snapshot::Snapshot;
 
 /// How a run ended.
@@ -60,6 +61,33 @@ impl RunStatus {
     }
 }
 
+/// What a scene is for.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SceneSet {
+    /// Planners are compared on it.
+    #[default]
+    Test,
+    /// Settings were chosen on it, so it says nothing about how well they do elsewhere: it is
+    /// shown, but takes no part in any statistic over scenes.
+    Tuning,
+}
+
+impl SceneSet {
+    /// The name in tables and files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Test => "test",
+            Self::Tuning => "tuning",
+        }
+    }
+
+    /// The set of that name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        [Self::Test, Self::Tuning].into_iter().find(|s| s.name() == name)
+    }
+}
+
 /// One point of a run's convergence: its best cost when it last improved.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Progress {
@@ -114,9 +142,39 @@ pub struct RunRecord {
     pub path: Vec<Point>,
     /// Convergence: one entry per improvement.
     pub progress: Vec<Progress>,
+    /// What reaching the planner in its process cost beside `time_us`, µs; `None` where it ran in the bench's own
+    /// process, or where the whole round trip counts as its time.
+    pub overhead_us: Option<f64>,
 }
 
 impl RunRecord {
+    /// A run of which nothing is known yet: an error without a message.
+    pub fn empty(scene: &str, planner: &str, repeat: u32, seed: u64) -> Self {
+        Self {
+            scene: scene.to_owned(),
+            planner: planner.to_owned(),
+            repeat,
+            seed,
+            status: RunStatus::Error,
+            valid: false,
+            length: None,
+            gap: None,
+            clearance_min: None,
+            turning: None,
+            iterations: 0,
+            evaluations: 0,
+            collision_checks: 0,
+            time_us: 0.0,
+            cpu_us: 0.0,
+            error: None,
+            cost: None,
+            terms: Vec::new(),
+            path: Vec::new(),
+            progress: Vec::new(),
+            overhead_us: None,
+        }
+    }
+
     /// The part of the planner's objective called `name`.
     pub fn term(&self, name: &str) -> Option<f64> {
         self.terms.iter().find(|(n, _)| n == name).map(|(_, value)| *value)
@@ -141,6 +199,8 @@ pub struct SceneResult {
     pub scene: Scene,
     /// Its optimum.
     pub optimum: Optimum,
+    /// What it is for.
+    pub set: SceneSet,
 }
 
 /// A planner of the campaign.
@@ -152,6 +212,26 @@ pub struct PlannerInfo {
     pub kind: String,
     /// Every setting actually used, as TOML.
     pub settings: String,
+    /// Label of the table it was written in: variants of a sweep share it.
+    pub group: String,
+    /// What tells it from the others of its group, as in its label; empty for an only one.
+    pub varied: String,
+    /// What a run may spend.
+    pub budget: BudgetSpec,
+}
+
+impl PlannerInfo {
+    /// A planner that is no variant, without a budget.
+    pub fn plain(label: &str, kind: &str, settings: &str) -> Self {
+        Self {
+            label: label.to_owned(),
+            kind: kind.to_owned(),
+            settings: settings.to_owned(),
+            group: label.to_owned(),
+            varied: String::new(),
+            budget: BudgetSpec::default(),
+        }
+    }
 }
 
 /// Where and how the numbers were made.
@@ -178,6 +258,18 @@ pub struct Manifest {
     /// What a reader ought to know of how the scenes came about; manifests before these notes had none.
     #[serde(default)]
     pub notes: Vec<String>,
+    /// Whether every planner ran in a process of its own; external ones always do.
+    #[serde(default)]
+    pub isolated: bool,
+    /// How often the campaign was taken up again.
+    #[serde(default)]
+    pub resumed: u32,
+    /// What part of the campaign this is, as I/N; empty for all of it.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub shard: String,
+    /// The shards that were merged into this campaign, each with its machine and times.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub shards: Vec<Manifest>,
 }
 
 /// A whole campaign.

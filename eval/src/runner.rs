@@ -19,33 +19,36 @@ use crate::config::PlannerEntry;
 use crate::recorder::Recorder;
 use crate::results::{RunRecord, RunStatus};
 use crate::verdict::{Fault, Judge};
+use crate::work::Work;
 use crate::{metrics, seeds};
 
-/// Makes all runs with `jobs` ≥ 1 threads and hands each to `sink` on the calling thread, in no
-/// particular order. `optima` are the scenes' optimal lengths. Ends early with the sink's error.
+/// Makes the runs of `work` and hands each to `sink` on the calling thread, in no particular order. `optima` are the scenes' optimal lengths. Ends early with the sink's error.
 pub fn run<E>(
     campaign: &Campaign,
     optima: &[Option<f64>],
-    jobs: usize,
+    work: &Work,
     mut sink: impl FnMut(RunRecord) -> Result<(), E>,
 ) -> Result<(), E> {
     let repeats = campaign.comparison.repeats as usize;
-    let units = campaign.arenas.len() * repeats;
-    if jobs == 1 {
-        let mut worker = Worker::new(campaign, optima);
-        return (0..units).try_for_each(|unit| worker.unit(unit / repeats, (unit % repeats) as u32, &mut sink));
+    let units: Vec<(usize, u32)> = (0..campaign.arenas.len() * repeats)
+        .filter(|unit| work.shard.has(*unit))
+        .map(|unit| (unit / repeats, (unit % repeats) as u32))
+        .collect();
+    if work.jobs == 1 {
+        let mut worker = Worker::new(campaign, optima, work);
+        return units.iter().try_for_each(|(scene, repeat)| worker.unit(*scene, *repeat, &mut sink));
     }
     let (next, stop) = (AtomicUsize::new(0), AtomicBool::new(false));
     std::thread::scope(|scope| {
         let (sender, receiver) = mpsc::channel();
-        for _ in 0..jobs.min(units) {
-            let (sender, next, stop) = (sender.clone(), &next, &stop);
+        for _ in 0..work.jobs.min(units.len()) {
+            let (sender, next, stop, units) = (sender.clone(), &next, &stop, &units);
             scope.spawn(move || {
-                let mut worker = Worker::new(campaign, optima);
+                let mut worker = Worker::new(campaign, optima, work);
                 while !stop.load(Ordering::Relaxed) {
-                    let unit = next.fetch_add(1, Ordering::Relaxed);
                     let mut send = |record| sender.send(record).map_err(drop);
-                    if unit >= units || worker.unit(unit / repeats, (unit % repeats) as u32, &mut send).is_err() {
+                    let Some((scene, repeat)) = units.get(next.fetch_add(1, Ordering::Relaxed)) else { break };
+                    if worker.unit(*scene, *repeat, &mut send).is_err() {
                         break;
                     }
                 }
@@ -62,17 +65,26 @@ pub fn run<E>(
 struct Worker<'c> {
     campaign: &'c Campaign,
     optima: &'c [Option<f64>],
-    planners: Vec<Box<dyn Planner>>,
+    work: &'c Work,
+    planners: Vec<Option<Box<dyn Planner>>>,
     plan: Plan,
     recorder: Recorder,
-    /// The scene in which the planners are warm.
-    warm: Option<usize>,
+    /// For each planner, the scene in which it is warm.
+    warm: Vec<Option<usize>>,
 }
 
 impl<'c> Worker<'c> {
-    fn new(campaign: &'c Campaign, optima: &'c [Option<f64>]) -> Self {
-        let planners = campaign.comparison.planners.iter().map(|entry| (entry.make)()).collect();
-        Self { campaign, optima, planners, plan: Plan::new(), recorder: Recorder::new(), warm: None }
+    fn new(campaign: &'c Campaign, optima: &'c [Option<f64>], work: &'c Work) -> Self {
+        let planners = campaign.comparison.planners.iter().map(PlannerEntry::instance).collect();
+        Self {
+            campaign,
+            optima,
+            work,
+            planners,
+            plan: Plan::new(),
+            recorder: Recorder::new(),
+            warm: vec![None; campaign.comparison.planners.len()],
+        }
     }
 
     fn unit<E>(
@@ -85,12 +97,13 @@ impl<'c> Worker<'c> {
         let arena = &self.campaign.arenas[scene];
         let seed = seeds::run_seed(comparison.seed, &arena.scene.name, repeat);
         let order = seeds::turn_order(comparison.seed, &arena.scene.name, repeat, comparison.planners.len());
-        let warm_up = self.warm != Some(scene);
-        self.warm = Some(scene);
         let judge = Judge::new(&arena.scene);
         for index in order {
+            if self.work.done.contains(&(scene, index, repeat)) {
+                continue;
+            }
             let entry = &comparison.planners[index];
-            if warm_up {
+            if self.warm[index].replace(scene) != Some(scene) {
                 self.one(index, entry, arena, seed, &judge, self.optima[scene]);
             }
             let mut record = self.one(index, entry, arena, seed, &judge, self.optima[scene]);
@@ -109,11 +122,15 @@ impl<'c> Worker<'c> {
         judge: &Judge<'_>,
         optimum: Option<f64>,
     ) -> RunRecord {
-        let planner = &mut self.planners[index];
+        let Some(planner) = &mut self.planners[index] else {
+            let mut record = RunRecord::empty(&arena.scene.name, &entry.label, 0, seed);
+            record.error = Some("not yet: external planners".to_owned());
+            return record;
+        };
         let (record, broken) = run_once(planner.as_mut(), entry, arena, seed, &mut self.plan, &mut self.recorder);
         if broken {
             // Its state is anyone's guess.
-            *planner = (entry.make)();
+            self.planners[index] = entry.instance();
         }
         judged(record, judge, optimum)
     }
@@ -129,28 +146,7 @@ pub fn run_once(
     plan: &mut Plan,
     recorder: &mut Recorder,
 ) -> (RunRecord, bool) {
-    let mut record = RunRecord {
-        scene: arena.scene.name.clone(),
-        planner: entry.label.clone(),
-        repeat: 0,
-        seed,
-        status: RunStatus::Error,
-        valid: false,
-        length: None,
-        gap: None,
-        clearance_min: None,
-        turning: None,
-        iterations: 0,
-        evaluations: 0,
-        collision_checks: 0,
-        time_us: 0.0,
-        cpu_us: 0.0,
-        error: None,
-        cost: None,
-        terms: Vec::new(),
-        path: Vec::new(),
-        progress: Vec::new(),
-    };
+    let mut record = RunRecord::empty(&arena.scene.name, &entry.label, 0, seed);
     let problem: Problem<'_> = match arena.problem() {
         Ok(problem) => problem,
         Err(e) => {
@@ -254,7 +250,7 @@ mod tests {
         ];
         let campaign = campaign(planners);
         let mut runs = Vec::new();
-        run(&campaign, &[Some(10.0), None], jobs, |r| {
+        run(&campaign, &[Some(10.0), None], &Work::all(jobs), |r| {
             runs.push(r);
             Ok::<(), ()>(())
         })
@@ -310,9 +306,9 @@ mod tests {
     fn a_deadline_counts_from_the_call() {
         let mut patient = entry("patient", nothing);
         patient.budget.time_ms = Some(5.0);
-        patient.make = Box::new(|| Box::new(crate::testing::Patient));
+        patient.maker = crate::config::Maker::Catalogue(Box::new(|| Box::new(crate::testing::Patient)));
         let mut times = Vec::new();
-        run(&campaign(vec![patient]), &[None, None], 1, |r| {
+        run(&campaign(vec![patient]), &[None, None], &Work::all(1), |r| {
             assert_eq!(r.status, RunStatus::BudgetSpent);
             times.push(r.time_us);
             Ok::<(), ()>(())
@@ -327,7 +323,7 @@ mod tests {
     fn a_sink_that_fails_ends_the_campaign() {
         for jobs in [1, 2] {
             let mut seen = 0;
-            let outcome = run(&campaign(vec![entry("detour", detour)]), &[None, None], jobs, |_| {
+            let outcome = run(&campaign(vec![entry("detour", detour)]), &[None, None], &Work::all(jobs), |_| {
                 seen += 1;
                 if seen == 3 { Err("disk full") } else { Ok(()) }
             });

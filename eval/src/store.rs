@@ -9,17 +9,20 @@ use std::path::{Path, PathBuf};
 
 use env_model::{Point, Scene};
 use rusqlite::{Connection, OpenFlags, OptionalExtension, params};
+use serde::{Deserialize, Serialize};
 
 use crate::campaign::Campaign;
+use crate::config::BudgetSpec;
 use crate::error::Error;
-use crate::results::{Manifest, Optimum, PlannerInfo, Progress, Results, RunRecord, RunStatus, SceneResult};
+use crate::results::{Manifest, Optimum, PlannerInfo, Progress, Results, RunRecord, RunStatus, SceneResult, SceneSet};
 use crate::snapshot::Snapshot;
 
 /// The file's name in a campaign's folder.
 pub const FILE: &str = "runs.db";
 /// Version of the tables below.
-const SCHEMA: i64 = 2;
-/// The first version, which this program still reads: without `snapshot` and a run's `cost` and `terms`.
+const SCHEMA: i64 = 3;
+/// The first version, which this program still reads: without `snapshot` and a run's `cost` and `terms`. The second
+/// has them, and lacks a planner's `variant`, a scene's `role` and a run's `overhead_us`.
 const FIRST: i64 = 1;
 
 const TABLES: &str = "
@@ -35,7 +38,8 @@ CREATE TABLE planner (
     position INTEGER PRIMARY KEY,
     label TEXT NOT NULL UNIQUE,
     kind TEXT NOT NULL,
-    settings TEXT NOT NULL             -- resolved, TOML
+    settings TEXT NOT NULL,            -- resolved, TOML
+    variant TEXT NOT NULL              -- JSON: group, varied, budget
 );
 CREATE TABLE scene (
     position INTEGER PRIMARY KEY,
@@ -45,7 +49,8 @@ CREATE TABLE scene (
     compile_us REAL NOT NULL,
     optimum_length REAL,
     optimum_path TEXT NOT NULL,        -- JSON
-    optimum_reason TEXT
+    optimum_reason TEXT,
+    role TEXT NOT NULL                 -- test or tuning
 );
 CREATE TABLE run (
     scene TEXT NOT NULL,
@@ -68,6 +73,7 @@ CREATE TABLE run (
     progress TEXT NOT NULL,            -- JSON
     cost REAL,
     terms TEXT NOT NULL,               -- JSON
+    overhead_us REAL,                  -- beside time_us, of a run in a process of its own
     PRIMARY KEY (scene, planner, repeat)
 ) WITHOUT ROWID;
 CREATE TABLE snapshot (
@@ -161,7 +167,15 @@ impl Store {
     }
 }
 
-fn json(value: &impl serde::Serialize) -> String {
+/// What tells a planner from the others of its group.
+#[derive(Serialize, Deserialize)]
+struct Variant {
+    group: String,
+    varied: String,
+    budget: BudgetSpec,
+}
+
+fn json(value: &impl Serialize) -> String {
     serde_json::to_string(value).expect("plain data with string keys")
 }
 
@@ -186,15 +200,21 @@ fn fill(db: &mut Connection, campaign: &Campaign, results: &Results) -> rusqlite
     )?;
     for (i, planner) in results.planners.iter().enumerate() {
         tx.execute(
-            "INSERT INTO planner VALUES (?1, ?2, ?3, ?4)",
-            params![i as i64, planner.label, planner.kind, planner.settings],
+            "INSERT INTO planner VALUES (?1, ?2, ?3, ?4, ?5)",
+            params![
+                i as i64,
+                planner.label,
+                planner.kind,
+                planner.settings,
+                json(&Variant { group: planner.group.clone(), varied: planner.varied.clone(), budget: planner.budget })
+            ],
         )?;
     }
     let files = comparison.scene_files();
     for (i, ((scene, arena), file)) in results.scenes.iter().zip(&campaign.arenas).zip(files).enumerate() {
         let Optimum { length, path, reason } = &scene.optimum;
         tx.execute(
-            "INSERT INTO scene VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)",
+            "INSERT INTO scene VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9)",
             params![
                 i as i64,
                 scene.scene.name,
@@ -203,7 +223,8 @@ fn fill(db: &mut Connection, campaign: &Campaign, results: &Results) -> rusqlite
                 arena.compile_us,
                 length,
                 points(path),
-                reason
+                reason,
+                scene.set.name()
             ],
         )?;
     }
@@ -214,7 +235,7 @@ fn insert(db: &Connection, run: &RunRecord) -> rusqlite::Result<()> {
     let progress: Vec<(u64, f64, f64)> = run.progress.iter().map(|p| (p.evaluations, p.time_us, p.cost)).collect();
     let mut statement = db.prepare_cached(
         "INSERT INTO run VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17, ?18,
-         ?19, ?20)",
+         ?19, ?20, ?21)",
     )?;
     // Outside of `BEGIN` every statement is a transaction of its own.
     statement.execute(params![
@@ -238,6 +259,7 @@ fn insert(db: &Connection, run: &RunRecord) -> rusqlite::Result<()> {
         json(&progress),
         run.cost,
         json(&run.terms),
+        run.overhead_us,
     ])?;
     Ok(())
 }
@@ -266,35 +288,50 @@ fn read(db: &Connection, schema: i64) -> rusqlite::Result<Result<Stored, String>
         db.query_row("SELECT name, seed, repeats, comparison, manifest FROM campaign", [], |row| {
             Ok((row.get(0)?, row.get(1)?, row.get(2)?, row.get(3)?, row.get(4)?))
         })?;
-    let planners = db
-        .prepare("SELECT label, kind, settings FROM planner ORDER BY position")?
-        .query_map([], |row| Ok(PlannerInfo { label: row.get(0)?, kind: row.get(1)?, settings: row.get(2)? }))?
-        .collect::<rusqlite::Result<_>>()?;
+    // What older versions lack.
+    let (variant, role, overhead) =
+        if schema < SCHEMA { ("NULL", "'test'", "NULL") } else { ("variant", "role", "overhead_us") };
     let mut statement =
-        db.prepare("SELECT file, toml, optimum_length, optimum_path, optimum_reason FROM scene ORDER BY position")?;
+        db.prepare(&format!("SELECT label, kind, settings, {variant} FROM planner ORDER BY position"))?;
+    let planners = collect(statement.query_map([], |row| {
+        let (label, text): (String, Option<String>) = (row.get(0)?, row.get(3)?);
+        let (kind, settings) = (row.get(1)?, row.get(2)?);
+        let variant = text.map_or_else(
+            || Ok(Variant { group: label.clone(), varied: String::new(), budget: BudgetSpec::default() }),
+            |text| serde_json::from_str(&text).map_err(|e| format!("a planner: {e}")),
+        );
+        Ok(variant.map(|Variant { group, varied, budget }| PlannerInfo {
+            label,
+            kind,
+            settings,
+            group,
+            varied,
+            budget,
+        }))
+    })?)?;
+    let mut statement = db.prepare(&format!(
+        "SELECT file, toml, optimum_length, optimum_path, optimum_reason, {role} FROM scene ORDER BY position"
+    ))?;
     let scenes = collect(statement.query_map([], |row| {
         let (file, toml, shortest): (String, String, String) = (row.get(0)?, row.get(1)?, row.get(3)?);
-        let (length, reason) = (row.get(2)?, row.get(4)?);
+        let (length, reason, role): (_, _, String) = (row.get(2)?, row.get(4)?, row.get(5)?);
         Ok(Scene::from_toml(&file, &toml).map_err(|e| e.to_string()).and_then(|scene| {
-            Ok((file, SceneResult { scene, optimum: Optimum { length, path: path(&shortest)?, reason } }))
+            let set = SceneSet::from_name(&role).ok_or_else(|| format!("no set of scenes {role:?}"))?;
+            Ok((file, SceneResult { scene, optimum: Optimum { length, path: path(&shortest)?, reason }, set }))
         }))
     })?)?;
     let added = if schema == FIRST { "NULL, '[]'" } else { "cost, terms" };
     let mut statement = db.prepare(&format!(
         "SELECT scene, planner, repeat, seed, status, valid, length, gap, clearance_min, turning, iterations,
-         evaluations, collision_checks, time_us, cpu_us, error, path, progress, {added}
+         evaluations, collision_checks, time_us, cpu_us, error, path, progress, {added}, {overhead}
          FROM run ORDER BY scene, planner, repeat",
     ))?;
     let runs = collect(statement.query_map([], |row| {
         let (status, points, curve): (String, String, String) = (row.get(4)?, row.get(16)?, row.get(17)?);
         let terms: String = row.get(19)?;
         let count = |i: usize| row.get::<_, i64>(i).map(|n| n as u64);
+        let (scene, planner): (String, String) = (row.get(0)?, row.get(1)?);
         let mut run = RunRecord {
-            scene: row.get(0)?,
-            planner: row.get(1)?,
-            repeat: row.get(2)?,
-            seed: count(3)?,
-            status: RunStatus::Error,
             valid: row.get(5)?,
             length: row.get(6)?,
             gap: row.get(7)?,
@@ -307,9 +344,8 @@ fn read(db: &Connection, schema: i64) -> rusqlite::Result<Result<Stored, String>
             cpu_us: row.get(14)?,
             error: row.get(15)?,
             cost: row.get(18)?,
-            terms: Vec::new(),
-            path: Vec::new(),
-            progress: Vec::new(),
+            overhead_us: row.get(20)?,
+            ..RunRecord::empty(&scene, &planner, row.get(2)?, count(3)?)
         };
         let mut parse = || {
             run.status = RunStatus::from_name(&status).ok_or_else(|| format!("no status {status:?}"))?;
@@ -337,7 +373,7 @@ fn read(db: &Connection, schema: i64) -> rusqlite::Result<Result<Stored, String>
     Ok((|| {
         let (scene_files, scenes) = scenes?.into_iter().unzip();
         let manifest = serde_json::from_str(&manifest).map_err(|e| format!("the manifest: {e}"))?;
-        let (runs, snapshots) = (runs?, snapshots?);
+        let (planners, runs, snapshots) = (planners?, runs?, snapshots?);
         let results = Results { name, seed: seed as u64, repeats, planners, scenes, runs, snapshots, manifest };
         Ok(Stored { results, comparison, scene_files })
     })())

@@ -69,6 +69,7 @@ mod tests {
     use crate::results::Optimum;
     use crate::runner;
     use crate::testing::{campaign, detour, entry, straight};
+    use crate::work::Work;
 
     #[test]
     fn the_table_as_printed() {
@@ -76,7 +77,7 @@ mod tests {
         let mut results = campaign.empty_results(1);
         results.scenes.truncate(1);
         results.scenes[0].optimum = Optimum { length: Some(10.25), path: Vec::new(), reason: None };
-        runner::run(&campaign, &[Some(10.25), None], 1, |mut run| {
+        runner::run(&campaign, &[Some(10.25), None], &Work::all(1), |mut run| {
             (run.time_us, run.repeat) = (1250.0, 0);
             // One number for all, so that the picture is the same whatever the seeds.
             run.gap = run.gap.map(|_| 0.0625);

@@ -4,9 +4,10 @@ use env_model::{Obstacle, Point, Scene};
 use planner_api::{Candidates, Plan, PlanError, Planner, PopulationView, Problem, Run, Status, TreeView, View};
 
 use crate::campaign::Campaign;
-use crate::config::{BudgetSpec, Comparison, PlannerEntry};
-use crate::results::RunRecord;
+use crate::config::{BudgetSpec, Comparison, Limits, Maker, PlannerEntry, SceneEntry};
+use crate::results::{RunRecord, SceneSet};
 use crate::runner;
+use crate::work::Work;
 
 /// A planner that is a function of problem and seed, and counts its calls since `reset`.
 pub struct Fake {
@@ -86,14 +87,14 @@ impl Planner for Climber {
 }
 
 pub fn climber(budget: BudgetSpec) -> PlannerEntry {
-    PlannerEntry { budget, make: Box::new(|| Box::new(Climber)), ..entry("climber", detour) }
+    PlannerEntry { budget, maker: Maker::Catalogue(Box::new(|| Box::new(Climber))), ..entry("climber", detour) }
 }
 
 /// All runs of a campaign, sorted.
 pub fn runs_of(campaign: &Campaign) -> Vec<RunRecord> {
     let mut runs = Vec::new();
     let optima = vec![None; campaign.arenas.len()];
-    runner::run(campaign, &optima, 1, |r| {
+    runner::run(campaign, &optima, &Work::all(1), |r| {
         runs.push(r);
         Ok::<(), ()>(())
     })
@@ -105,10 +106,13 @@ pub fn runs_of(campaign: &Campaign) -> Vec<RunRecord> {
 pub fn entry(label: &str, act: fn(&Problem<'_>, u64, &mut Plan) -> Result<Status, PlanError>) -> PlannerEntry {
     PlannerEntry {
         label: label.to_owned(),
+        group: label.to_owned(),
+        varied: String::new(),
         kind: "fake".to_owned(),
         settings: toml::Table::from_iter([("gain".to_owned(), 0.5.into())]),
         budget: BudgetSpec::default(),
-        make: Box::new(move || Box::new(Fake { calls: 0, act })),
+        limits: Limits::default(),
+        maker: Maker::Catalogue(Box::new(move || Box::new(Fake { calls: 0, act }))),
     }
 }
 
@@ -160,6 +164,6 @@ pub fn scene(name: &str) -> Scene {
 }
 
 pub fn campaign(planners: Vec<PlannerEntry>) -> Campaign {
-    let scenes = vec![scene("b-scene"), scene("a-scene")];
+    let scenes = [scene("b-scene"), scene("a-scene")].map(|scene| SceneEntry { scene, set: SceneSet::Test }).into();
     Campaign::new(Comparison { name: "test".into(), seed: 3, repeats: 5, scenes, planners, notes: Vec::new() }).unwrap()
 }

@@ -289,11 +289,8 @@ fn what_is_to_come_says_so() {
     ] {
         place.refused(args, "error: not yet: ");
     }
-    place.write(
-        "external.toml",
-        "name = \"e\"\nscenes = [\"one.toml\"]\n[planner.mine]\nkind = \"external\"\ncommand = [\"x\"]",
-    );
-    place.refused(&["run", "external.toml"], "external.toml:4:8: not yet: planners of kind \"external\"");
+    place.write("external.toml", "name = \"e\"\nscenes = [\"one.toml\"]\n[planner.mine]\nkind = \"external\"");
+    place.refused(&["run", "external.toml"], "external.toml:4:8: an external planner without command");
 }
 
 #[test]

@@ -147,11 +147,11 @@ enum Format {
     Html,
     /// runs.csv and summary.csv
     Csv,
-    /// paths.jsonl and manifest.json
+    /// paths.jsonl, manifest.json, and everything in results.json, with its schema
     Json,
-    /// Not yet: a benchmark log of OMPL
+    /// ompl/SCENE.log: logs for ompl_benchmark_statistics and Planner Arena
     Ompl,
-    /// Not yet: data for `IOHanalyzer`
+    /// ioh.csv for IOHanalyzer: a row an improvement, its value the gap to the optimum, 1e9 for a failed run
     Ioh,
 }
 
@@ -167,7 +167,7 @@ enum Tongue {
 struct ReportArgs {
     /// Folder of a campaign
     dir: PathBuf,
-    /// What to make; default: everything
+    /// What to make; default: html, csv, json, and the comparison with its scenes
     #[arg(long, value_name = "FORMAT", value_delimiter = ',')]
     format: Vec<Format>,
     /// Language of report.html

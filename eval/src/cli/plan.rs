@@ -34,7 +34,9 @@ pub(super) fn plan(args: &PlanArgs) -> Result<ExitCode, Error> {
     let arena = Arena::new(scene).map_err(|e| Error::Usage(format!("{file}: {e}")))?;
     let judge = Judge::new(&arena.scene);
     let result = arena.result();
-    let mut planner = (entry.make)();
+    let Some(mut planner) = entry.instance() else {
+        return Err(Error::Usage("--planner external; expected a planner of the catalogue".to_owned()));
+    };
     let (mut buffer, mut recorder) = (Plan::new(), Recorder::new());
     // The first call warms up, as in the bench.
     runner::run_once(planner.as_mut(), &entry, &arena, args.seed, &mut buffer, &mut recorder);
@@ -93,7 +95,7 @@ fn trace(path: &Path, entry: &PlannerEntry, arena: &Arena, seed: u64) -> Result<
     let mut tracer = Tracer::new(BufWriter::new(file), &problem);
     let mut run = Run::new(seed).with_budget(entry.budget.begin()).with_observer(&mut tracer);
     // The first run has told how planning ended; this one is only watched.
-    let _ = (entry.make)().plan_into(&problem, &mut run, &mut Plan::new());
+    let _ = entry.instance().map(|mut planner| planner.plan_into(&problem, &mut run, &mut Plan::new()));
     tracer.finish().map_err(Error::io("write", path))
 }
 

@@ -12,6 +12,7 @@ use crate::progress::Progress;
 use crate::report::Language;
 use crate::results::{Results, RunStatus};
 use crate::store::Store;
+use crate::work::Work;
 use crate::{machine, replay, runner, table};
 
 pub(super) fn run(args: &RunArgs) -> Result<ExitCode, Error> {
@@ -84,7 +85,7 @@ fn carry_out(campaign: &Campaign, out: Option<&Path>, jobs: usize, quiet: bool) 
     let folder = claim.keep();
     let optima: Vec<Option<f64>> = results.scenes.iter().map(|s| s.optimum.length).collect();
     let mut progress = Progress::new(campaign.run_count(), quiet);
-    runner::run(campaign, &optima, jobs, |record| {
+    runner::run(campaign, &optima, &Work::all(jobs), |record| {
         progress.step();
         store.add(&record)
     })?;
@@ -96,7 +97,7 @@ fn carry_out(campaign: &Campaign, out: Option<&Path>, jobs: usize, quiet: bool) 
     store.finish(&manifest)?;
     // From the store, as `report` does it: what is exported is what was kept.
     let stored = store.read()?;
-    export::write(&folder, &stored, Formats::ALL, Language::English)?;
+    export::write(&folder, &stored, Formats::OWN, Language::English)?;
     Ok((folder, stored.results))
 }
 

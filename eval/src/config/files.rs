@@ -14,6 +14,9 @@ pub trait Files {
     /// Opens a file.
     fn open(&self, relative: &str) -> Result<Opened, String>;
 
+    /// Where commands named in the comparison run.
+    fn folder(&self) -> &Path;
+
     /// The file's name for messages and its text.
     fn read(&self, relative: &str) -> Result<(String, String), String> {
         let (name, mut reader) = self.open(relative)?;
@@ -36,6 +39,11 @@ impl Disk {
 }
 
 impl Files for Disk {
+    fn folder(&self) -> &Path {
+        // The empty path of a bare file name is no folder to change to.
+        if self.folder.as_os_str().is_empty() { Path::new(".") } else { &self.folder }
+    }
+
     fn open(&self, relative: &str) -> Result<Opened, String> {
         if relative.is_empty() {
             return Err("an empty path".to_owned());
@@ -60,6 +68,10 @@ impl Embedded {
 }
 
 impl Files for Embedded {
+    fn folder(&self) -> &Path {
+        Path::new(".")
+    }
+
     fn open(&self, relative: &str) -> Result<Opened, String> {
         match relative {
             "../scenes/lu-sun-2012.toml" => {

@@ -13,6 +13,11 @@
 //! budget = { evaluations = 8000 }   # replaces single keys of the common budget
 //! ```
 //!
+//! `{ sweep = [0.2, 0.5] }` in place of any value of a planner's table makes a planner of each value, and an array
+//! of budgets one of each budget, all labelled by what they vary: `pso[velocity_limit=0.5, 400 iterations]`.
+//! `tuning = […]` takes scenes like `scenes`, on which settings were chosen: they are run and shown, but no
+//! statistic over scenes counts them.
+//!
 //! Paths are relative to the file. Scenes also come from match logs, see [`env_model::import`]:
 //! `{ rcg = "game.rcg.gz", cycles = [120, 480], side = "left" }` and
 //! `{ ssl-log = "game.log.gz", frames = [10], team = "blue", robot = 3 }`; and from grid maps, see
@@ -23,6 +28,7 @@ mod logs;
 mod movingai;
 mod planners;
 mod scenes;
+mod sweep;
 #[cfg(test)]
 mod tests;
 
@@ -35,8 +41,10 @@ use serde::de::IgnoredAny;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use crate::results::SceneSet;
+
 pub use files::{Disk, EMBEDDED_NAME, Embedded, Files, Opened};
-pub use planners::{BudgetSpec, Factory, PlannerEntry, from_settings, single};
+pub use planners::{BudgetSpec, External, Factory, Limits, Maker, PlannerEntry, from_settings, single};
 pub use scenes::refuse_motion;
 
 /// A comparison, resolved: scenes read or generated, planners built once, every setting known.
@@ -47,12 +55,21 @@ pub struct Comparison {
     pub seed: u64,
     /// Runs per planner and scene, ≥ 1.
     pub repeats: u32,
-    /// The scenes, names unique.
-    pub scenes: Vec<Scene>,
+    /// The scenes, names unique, those of the tuning set last.
+    pub scenes: Vec<SceneEntry>,
     /// The planners in the file's order, labels unique.
     pub planners: Vec<PlannerEntry>,
     /// What a reader ought to know of how the scenes came about.
     pub notes: Vec<String>,
+}
+
+/// A scene of a comparison.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SceneEntry {
+    /// The scene itself.
+    pub scene: Scene,
+    /// What it is for.
+    pub set: SceneSet,
 }
 
 /// The file's own keys. `scenes` and `planner` are read by hand for the sake of their places.
@@ -63,6 +80,8 @@ struct Head {
     seed: Option<Spanned<i64>>,
     repeats: Option<Spanned<i64>>,
     scenes: Option<IgnoredAny>,
+    #[expect(dead_code, reason = "here so that it is a known key")]
+    tuning: Option<IgnoredAny>,
     #[expect(dead_code, reason = "here so that it is a known key")]
     budget: Option<IgnoredAny>,
     planner: Option<IgnoredAny>,
@@ -94,25 +113,24 @@ impl Comparison {
             })
         })?;
         let entries = table.get_mut();
-        let budget = match entries.remove("budget") {
-            Some(value) => BudgetSpec::default().overridden(&source, value)?,
-            None => BudgetSpec::default(),
-        };
-        let planners = planners::read(&source, entries.remove("planner"), budget)?;
-        let (scenes, notes) = scenes::read(&source, entries.remove("scenes"), files)?;
+        let budget = entries.remove("budget");
+        let planners = planners::read(&source, entries.remove("planner"), budget, files.folder())?;
+        let sets = [(SceneSet::Test, entries.remove("scenes")), (SceneSet::Tuning, entries.remove("tuning"))];
+        let (scenes, notes) = scenes::read(&source, sets, files)?;
         Ok(Self { name: name.clone(), seed, repeats, scenes, planners, notes })
     }
 
     /// Keeps only the planners of these labels, in the file's order; `Err` names the first label that is none.
     /// What is no label itself may be several, separated by commas.
     pub fn keep_planners(&mut self, labels: &[String]) -> Result<(), String> {
-        let is_label = |text: &str| self.planners.iter().any(|p| p.label == text);
+        let names = |p: &PlannerEntry, text: &str| p.label == text || p.group == text;
+        let is_label = |text: &str| self.planners.iter().any(|p| names(p, text));
         let split = |text: &String| match is_label(text) {
             true => vec![text.clone()],
             false => text.split(',').map(|part| part.trim().to_owned()).collect(),
         };
         let labels: Vec<String> = labels.iter().flat_map(split).collect();
-        if let Some(unknown) = labels.iter().find(|label| self.planners.iter().all(|p| p.label != **label)) {
+        if let Some(unknown) = labels.iter().find(|label| !is_label(label)) {
             let known: Vec<String> = self.planners.iter().map(|p| format!("{:?}", p.label)).collect();
             let hint = if unknown.ends_with(".toml") { " (name the comparison before --planner)" } else { "" };
             return Err(format!(
@@ -121,7 +139,7 @@ impl Comparison {
                 known.join(", ")
             ));
         }
-        self.planners.retain(|p| labels.contains(&p.label));
+        self.planners.retain(|p| labels.iter().any(|label| names(p, label)));
         Ok(())
     }
 
@@ -129,14 +147,15 @@ impl Comparison {
     /// the files `scenes/<name>.toml` next to it, see [`Comparison::scene_files`].
     pub fn to_toml(&self) -> String {
         let text = |s: &str| toml::Value::String(s.to_owned()).to_string();
-        let scenes: Vec<String> = self.scene_files().iter().map(|f| format!("    {},\n", text(f))).collect();
-        let mut out = format!(
-            "name = {}\nseed = {}\nrepeats = {}\nscenes = [\n{}]\n",
-            text(&self.name),
-            self.seed,
-            self.repeats,
-            scenes.concat()
-        );
+        let mut out = format!("name = {}\nseed = {}\nrepeats = {}\n", text(&self.name), self.seed, self.repeats);
+        let files = self.scene_files();
+        for (set, key) in [(SceneSet::Test, "scenes"), (SceneSet::Tuning, "tuning")] {
+            let of_set = self.scenes.iter().zip(&files).filter(|(entry, _)| entry.set == set);
+            let lines: Vec<String> = of_set.map(|(_, file)| format!("    {},\n", text(file))).collect();
+            if !lines.is_empty() {
+                out.push_str(&format!("{key} = [\n{}]\n", lines.concat()));
+            }
+        }
         for planner in &self.planners {
             out.push('\n');
             out.push_str(&planner.to_toml());
@@ -148,7 +167,7 @@ impl Comparison {
     /// safe for every file system, and unique even where case does not count.
     pub fn scene_files(&self) -> Vec<String> {
         let mut taken: BTreeMap<String, u32> = BTreeMap::new();
-        let files = self.scenes.iter().map(|scene| {
+        let files = self.scenes.iter().map(|SceneEntry { scene, .. }| {
             let safe = |c: char| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' };
             let mut stem: String = scene.name.chars().take(80).map(safe).collect();
             if stem.starts_with('.') {

@@ -7,7 +7,8 @@ use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::{Files, from_table, logs, movingai};
+use super::{Files, SceneEntry, from_table, logs, movingai};
+use crate::results::SceneSet;
 
 const EXPECTED: &str = "a path or { generate = \"wall\", count = 20, obstacles = 21, seed = 2 }, \
     { rcg = \"game.rcg.gz\", cycles = [120], side = \"left\" }, \
@@ -28,10 +29,26 @@ struct Generated {
 
 pub(super) fn read(
     source: &Source<'_>,
-    value: Option<Spanned<DeValue<'_>>>,
+    sets: [(SceneSet, Option<Spanned<DeValue<'_>>>); 2],
     files: &dyn Files,
-) -> Result<(Vec<Scene>, Vec<String>), FileError> {
-    let Some(value) = value else { return Ok((Vec::new(), Vec::new())) };
+) -> Result<(Vec<SceneEntry>, Vec<String>), FileError> {
+    let (mut scenes, mut notes) = (Vec::new(), Vec::new());
+    for (set, value) in sets {
+        if let Some(value) = value {
+            read_set(source, set, value, files, &mut scenes, &mut notes)?;
+        }
+    }
+    Ok((scenes, notes))
+}
+
+fn read_set(
+    source: &Source<'_>,
+    set: SceneSet,
+    value: Spanned<DeValue<'_>>,
+    files: &dyn Files,
+    scenes: &mut Vec<SceneEntry>,
+    notes: &mut Vec<String>,
+) -> Result<(), FileError> {
     let span = value.span();
     let entries = match value.into_inner() {
         DeValue::Array(entries) => entries,
@@ -40,7 +57,6 @@ pub(super) fn read(
     if entries.is_empty() {
         return Err(source.error_at(span, format!("an empty comparison: no scenes; expected {EXPECTED}")));
     }
-    let (mut scenes, mut notes): (Vec<Scene>, Vec<String>) = (Vec::new(), Vec::new());
     for entry in entries {
         let span = entry.span();
         let new = match entry.into_inner() {
@@ -70,14 +86,23 @@ pub(super) fn read(
             if let Err(message) = refuse_motion(&scene) {
                 return Err(source.error_at(span, message));
             }
-            if scenes.iter().any(|s| s.name == scene.name) {
+            if scenes.iter().any(|s| s.scene.name == scene.name) {
                 let message = format!("a second scene named {:?}; expected different names", scene.name);
                 return Err(source.error_at(span, message));
             }
-            scenes.push(scene);
+            // Under another name it would be tested on what it was tuned for.
+            let renamed = |other: &Scene| Scene { name: scene.name.clone(), ..other.clone() } == scene;
+            if let Some(twin) = scenes.iter().find(|s| s.set != set && renamed(&s.scene)) {
+                let message = format!(
+                    "scene {:?} of the tuning set is {:?} of the test set under another name; expected scenes of one set",
+                    scene.name, twin.scene.name
+                );
+                return Err(source.error_at(span, message));
+            }
+            scenes.push(SceneEntry { scene, set });
         }
     }
-    Ok((scenes, notes))
+    Ok(())
 }
 
 fn from_file(

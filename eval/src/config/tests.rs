@@ -33,6 +33,10 @@ const RCG: &str = "ULG6
 struct Memory;
 
 impl Files for Memory {
+    fn folder(&self) -> &Path {
+        Path::new(".")
+    }
+
     fn open(&self, relative: &str) -> Result<Opened, String> {
         let scene = |from: &str, to: &str| {
             assert!(SCENE.contains(from));
@@ -65,7 +69,7 @@ fn read(text: &str) -> Result<Comparison, String> {
 fn a_good_file_is_understood_in_its_own_order() {
     let c = read(GOOD).unwrap();
     assert_eq!((c.name.as_str(), c.seed, c.repeats), ("demo", 7, 3));
-    let scenes: Vec<_> = c.scenes.iter().map(|s| (s.name.as_str(), s.obstacles.len())).collect();
+    let scenes: Vec<_> = c.scenes.iter().map(|s| (s.scene.name.as_str(), s.scene.obstacles.len())).collect();
     assert_eq!(scenes, [("a", 1), ("wall-s4-00", 5), ("wall-s4-01", 5)]);
     let planners: Vec<_> = c.planners.iter().map(|p| (p.label.as_str(), p.kind.as_str())).collect();
     assert_eq!(planners, [("tangent", "tangent"), ("swarm", "pso")], "not the alphabet's order");
@@ -82,9 +86,13 @@ fn a_good_file_is_understood_in_its_own_order() {
 fn the_resolved_file_says_everything_and_reads_back() {
     struct Copies<'c>(&'c Comparison);
     impl Files for Copies<'_> {
+        fn folder(&self) -> &Path {
+            Path::new(".")
+        }
+
         fn open(&self, relative: &str) -> Result<Opened, String> {
             let i = self.0.scene_files().iter().position(|f| f == relative).ok_or("no such copy")?;
-            Ok((relative.to_owned(), Box::new(Cursor::new(self.0.scenes[i].to_toml()))))
+            Ok((relative.to_owned(), Box::new(Cursor::new(self.0.scenes[i].scene.to_toml()))))
         }
     }
     let text = GOOD.replace("\"a.toml\",", "\"a.toml\", { rcg = \"logs/game.rcg\", cycles = [7], side = \"right\" },");
@@ -137,8 +145,8 @@ fn mistakes_are_named_with_their_place() {
         ("[planner.tangent]", "[planner.tangnet]", "c.toml:7:10: unknown planner \"tangnet\"; expected one of"),
         ("kind = \"pso\"", "kind = \"psso\"", "c.toml:9:8: unknown planner \"psso\"; expected one of"),
         ("kind = \"pso\"", "kind = 3", "c.toml:9:8: kind is of type integer"),
-        ("kind = \"pso\"", "kind = \"external\"", "c.toml:9:8: not yet: planners of kind \"external\""),
-        ("particles = 10", "hard_limit_ms = 10", "c.toml:10:17: not yet: the key hard_limit_ms"),
+        ("kind = \"pso\"", "kind = \"external\"", "c.toml:9:8: an external planner without command"),
+        ("particles = 10", "hard_limit_ms = 0", "c.toml:10:17: hard_limit_ms: expected milliseconds"),
         ("particles = 10", "particles = 0", "c.toml:10:13: particles = 0; expected"),
         ("particles = 10", "columns = 0", "c.toml:10:11: columns = 0; expected"),
         ("particles = 10", "particles = \"ten\"", "c.toml:10:13: invalid type: string \"ten\""),
@@ -163,7 +171,7 @@ fn with_source(scene: &str) -> Result<Comparison, String> {
 fn logs_are_sources_of_scenes() {
     let names = |scene: &str| {
         let c = with_source(scene).unwrap_or_else(|e| panic!("{e}"));
-        c.scenes.iter().map(|s| s.name.clone()).collect::<Vec<_>>()
+        c.scenes.iter().map(|s| s.scene.name.clone()).collect::<Vec<_>>()
     };
     assert_eq!(
         names("{ rcg = \"logs/game.rcg\", cycles = [10, 7], side = \"right\" }"),
@@ -174,7 +182,7 @@ fn logs_are_sources_of_scenes() {
         ["final-c0007-left"]
     );
     let c = with_source("{ rcg = \"logs/game.rcg\", cycles = [9], side = \"left\", target = [-1, 2.5] }").unwrap();
-    assert_eq!((c.scenes[0].start, c.scenes[0].goal), ([3.0, 2.0], [-1.0, 2.5]));
+    assert_eq!((c.scenes[0].scene.start, c.scenes[0].scene.goal), ([3.0, 2.0], [-1.0, 2.5]));
     assert!(c.notes[0].starts_with("game-c0009-left: opponent 2 overlaps the start by 0.1"), "{:?}", c.notes);
     assert_eq!(
         names("{ rcg = \"data/robocup2d-heliosbase-selfplay.rcg.gz\", cycles = [120, 480], side = \"left\" }"),
@@ -183,7 +191,7 @@ fn logs_are_sources_of_scenes() {
     let ssl = "ssl-log = \"data/ssl-divB-6v6-simulated.log.gz\", frames = [10], team = \"blue\", robot = 3";
     assert_eq!(names(&format!("{{ {ssl} }}")), ["ssl-divB-6v6-simulated-f0010-blue3"]);
     let c = with_source(&format!("{{ {ssl}, attack = \"left\" }}")).unwrap();
-    assert_eq!((c.scenes[0].goal, c.notes.len()), ([-4.5, 0.0], 0));
+    assert_eq!((c.scenes[0].scene.goal, c.notes.len()), ([-4.5, 0.0], 0));
 }
 
 #[test]
@@ -266,7 +274,7 @@ fn an_empty_comparison_is_a_mistake() {
 fn copies_of_scenes_have_safe_and_different_names() {
     let mut c = read(GOOD).unwrap();
     for (scene, name) in c.scenes.iter_mut().zip(["../../etc/x", "Wall", "wall"]) {
-        scene.name = name.to_owned();
+        scene.scene.name = name.to_owned();
     }
     assert_eq!(c.scene_files(), ["scenes/_.._.._etc_x.toml", "scenes/Wall.toml", "scenes/wall~2.toml"]);
 }
@@ -291,4 +299,91 @@ fn planners_can_be_picked_by_label() {
 fn the_embedded_comparison_is_sound() {
     let c = Comparison::from_toml(EMBEDDED_NAME, Embedded::COMPARISON, &Embedded).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!((c.repeats, c.scenes.len(), c.planners.len()), (30, 1, 7));
+}
+
+fn labels(text: &str) -> Result<Vec<(String, String)>, String> {
+    let text = format!("name = \"x\"\nscenes = [\"a.toml\"]\n{text}");
+    let c = Comparison::from_toml("x.toml", &text, &Memory).map_err(|e| e.to_string())?;
+    // What the resolved comparison says is read as the same planners.
+    let again = Comparison::from_toml("x.toml", &c.to_toml().replace("scenes/a", "a"), &Memory).unwrap();
+    assert_eq!(again.to_toml(), c.to_toml());
+    Ok(c.planners.iter().map(|p| (p.label.clone(), p.group.clone())).collect())
+}
+
+#[test]
+fn sweeps_and_budgets_make_labelled_variants() {
+    let all = labels(
+        "budget = [{ iterations = 50 }, { iterations = 100 }]\n[planner.pso]\nvelocity_limit = { sweep = [0.2, \"none\"] }\n\
+         particles = { sweep = [10, 20] }\n[planner.plain]\nkind = \"tangent\"\nbudget = { time_ms = 1.5 }\n\
+         [planner.pso-qp]\nqp = { solver = { sweep = [\"structured\", \"clarabel\"] } }\nbudget = [{ iterations = 9 }]",
+    )
+    .unwrap();
+    let shown: Vec<&str> = all.iter().map(|(label, _)| label.as_str()).collect();
+    assert_eq!(
+        shown,
+        [
+            "pso[velocity_limit=0.2, particles=10, 50 iterations]",
+            "pso[velocity_limit=0.2, particles=10, 100 iterations]",
+            "pso[velocity_limit=0.2, particles=20, 50 iterations]",
+            "pso[velocity_limit=0.2, particles=20, 100 iterations]",
+            "pso[velocity_limit=none, particles=10, 50 iterations]",
+            "pso[velocity_limit=none, particles=10, 100 iterations]",
+            "pso[velocity_limit=none, particles=20, 50 iterations]",
+            "pso[velocity_limit=none, particles=20, 100 iterations]",
+            "plain[50 iterations, 1.5 ms]",
+            "plain[100 iterations, 1.5 ms]",
+            "pso-qp[qp.solver=structured]",
+            "pso-qp[qp.solver=clarabel]",
+        ]
+    );
+    assert!(all[..8].iter().all(|(_, group)| group == "pso"));
+    for (text, part) in [
+        ("[planner.pso]\nparticles = { sweep = [] }", "expected an array of one value or more"),
+        ("[planner.pso]\nparticles = { sweep = [1], x = 2 }", "x beside sweep"),
+        ("[planner.pso]\nparticles = { sweep = [10, 0] }", "x.toml:4:28: particles = 0"),
+        ("[planner.pso]\nparticles = { sweep = [10, 10] }", "a second planner labelled \"pso[particles=10]\""),
+        ("budget = []\n[planner.pso]", "no budget"),
+        ("budget = [{ iterations = 5 }, { iterations = 5 }]\n[planner.pso]", "a second budget of 5 iterations"),
+    ] {
+        let error = labels(text).unwrap_err();
+        assert!(error.contains(part), "{text}: {error}");
+    }
+}
+
+#[test]
+fn external_planners_and_limits() {
+    let ours = "[planner.mine]\nkind = \"external\"\ncommand = [\"python3\", \"p.py\"]\nmemory_mb = 64\nhard_limit_ms = 2.5\n\
+                gain = 3\n[planner.pso]\nmemory_mb = 10\n[planner.tangent]";
+    let c = Comparison::from_toml("x.toml", &format!("name = \"x\"\nscenes = [\"a.toml\"]\n{ours}"), &Memory).unwrap();
+    let isolated: Vec<bool> = c.planners.iter().map(PlannerEntry::isolated).collect();
+    assert_eq!(isolated, [true, true, false]);
+    assert_eq!(c.planners[0].limits, Limits { hard_limit_ms: Some(2.5), memory_mb: Some(64) });
+    assert_eq!(c.planners[0].hard_limit().as_secs_f64(), 0.0025);
+    assert_eq!(c.planners[1].hard_limit().as_secs_f64(), 60.0, "a minute without a time budget");
+    assert_eq!(c.planners[0].settings["gain"].as_integer(), Some(3));
+    assert!(labels(ours).is_ok());
+    for (text, part) in [
+        ("kind = \"external\"", "without command"),
+        ("kind = \"external\"\ncommand = []", "expected command ="),
+        ("kind = \"external\"\ncommand = [1]", "found integer; expected text"),
+        ("kind = \"external\"\ncommand = [\"a\"]\nrefine = [\"qp\"]", "refine in an external"),
+        ("kind = \"pso\"\ncommand = [\"a\"]", "expected kind = \"external\""),
+        ("kind = \"pso\"\nmemory_mb = 0", "memory_mb: expected mebibytes"),
+        ("kind = \"pso\"\nhard_limit_ms = \"x\"", "hard_limit_ms: expected milliseconds"),
+    ] {
+        let error = labels(&format!("[planner.a]\n{text}")).unwrap_err();
+        assert!(error.contains(part), "{text}: {error}");
+    }
+}
+
+#[test]
+fn tuning_scenes_stay_apart() {
+    let read =
+        |scenes: &str| Comparison::from_toml("x.toml", &format!("name = \"x\"\n{scenes}\n[planner.pso]"), &Memory);
+    let c = read("scenes = [\"a.toml\"]\ntuning = [{ generate = \"wall\", count = 2 }]").unwrap();
+    let sets: Vec<SceneSet> = c.scenes.iter().map(|s| s.set).collect();
+    assert_eq!(sets, [SceneSet::Test, SceneSet::Tuning, SceneSet::Tuning]);
+    assert!(c.to_toml().contains("tuning = [\n    \"scenes/wall-s1-00.toml\","), "{}", c.to_toml());
+    let error = read("scenes = [\"a.toml\"]\ntuning = [\"b.toml\"]").err().unwrap().to_string();
+    assert!(error.contains("\"b\" of the tuning set is \"a\" of the test set under another name"), "{error}");
 }

@@ -4,7 +4,7 @@ use env_model::{Obstacle, Point, Scene, Shape};
 
 use super::svg::{PathLayer, scene_svg};
 use super::*;
-use crate::results::{Optimum, PlannerInfo, Progress, RunRecord, RunStatus};
+use crate::results::{Optimum, PlannerInfo, Progress, RunRecord, RunStatus, SceneSet};
 use crate::snapshot::{Heat, Mesh, Ruler, Snapshot, State, Tree};
 
 /// A run with a path of that length, or without path.
@@ -32,6 +32,7 @@ pub fn run(scene: &str, planner: &str, repeat: u32, length: Option<f64>) -> RunR
         terms: Vec::new(),
         path,
         progress: Vec::new(),
+        overhead_us: None,
     }
 }
 
@@ -71,14 +72,16 @@ fn results(planners: &[&str], scenes: &[&str], repeats: u32) -> Results {
         }
     }
     let optimum = Optimum { length: Some(10.0), path: vec![Point::new(0.0, 0.0), Point::new(10.0, 0.0)], reason: None };
-    let planner =
-        |p: &&str| PlannerInfo { label: (*p).to_owned(), kind: "pso".into(), settings: "particles = 20\n".into() };
+    let planner = |p: &&str| PlannerInfo::plain(p, "pso", "particles = 20\n");
     Results {
         name: "test".into(),
         seed: 1,
         repeats,
         planners: planners.iter().map(planner).collect(),
-        scenes: scenes.iter().map(|s| SceneResult { scene: scene(s), optimum: optimum.clone() }).collect(),
+        scenes: scenes
+            .iter()
+            .map(|s| SceneResult { scene: scene(s), optimum: optimum.clone(), set: SceneSet::Test })
+            .collect(),
         runs,
         snapshots: Vec::new(),
         manifest: Manifest { version: "0.1.0".into(), jobs: 1, cores: 2, ..Manifest::default() },

@@ -1,0 +1,47 @@
+//! `ioh.csv` for `IOHanalyzer` (≥ 0.1.7), which maps columns of any CSV to evaluations, function value,
+//! function, algorithm, dimension and run.
+//!
+//! The function is the scene, and its value is the gap, length/optimum − 1, or the length itself where
+//! the optimum is not known. Wang, Vermetten, Ye, Doerr & Bäck, *`IOHanalyzer`* (2022),
+//! [doi](https://doi.org/10.1145/3510426).
+
+use super::csv::{cell, csv_text};
+use crate::results::{Results, RunRecord};
+
+/// The columns.
+pub const COLUMNS: [&str; 7] =
+    ["evaluations", "function_value", "function_id", "algorithm_id", "dimension", "run_id", "time_us"];
+
+/// The value of a run without a valid path: no path is that long, and `IOHanalyzer` knows no infinity.
+pub const FAILURE: f64 = 1e9;
+
+/// Costs that are lengths agree with the path's to the rounding of a sum of a hundred of them.
+const ROUNDING: f64 = 1e-9;
+
+/// One row for each improvement of a run, and one for its end, where the judge's verdict counts: a run without a
+/// valid path has that row alone, of value [`FAILURE`]. Improvements are in the planner's own cost, so they are told
+/// only of runs in which that is the path's length; costs below the optimum, of paths through obstacles, are left out.
+pub fn csv(results: &Results) -> String {
+    let mut rows: Vec<[String; 7]> = Vec::new();
+    for run in &results.runs {
+        let optimum = results.scenes.iter().find(|s| s.scene.name == run.scene).and_then(|s| s.optimum.length);
+        let value = |length: f64| optimum.map_or(length, |optimum| length / optimum - 1.0);
+        let row = |evaluations: u64, value: f64, time_us: f64| {
+            let (evaluations, repeat) = (evaluations.to_string(), run.repeat.to_string());
+            let (function, algorithm) = (run.scene.clone(), run.planner.clone());
+            [evaluations, cell(Some(value)), function, algorithm, "2".to_owned(), repeat, cell(Some(time_us))]
+        };
+        let end = run.length.filter(|_| run.valid);
+        if end.is_some() && cost_is_length(run) {
+            let possible = run.progress.iter().filter(|p| optimum.is_none_or(|o| p.cost >= o * (1.0 - ROUNDING)));
+            rows.extend(possible.map(|p| row(p.evaluations, value(p.cost), p.time_us)));
+        }
+        rows.push(row(run.evaluations, end.map_or(FAILURE, value), run.time_us));
+    }
+    csv_text(&COLUMNS, rows.into_iter())
+}
+
+/// Whether the planner's cost of the path that it returned is that path's length.
+fn cost_is_length(run: &RunRecord) -> bool {
+    run.cost.zip(run.length).is_some_and(|(cost, length)| (cost - length).abs() <= ROUNDING * length)
+}
