@@ -45,3 +45,48 @@ pub fn csv(results: &Results) -> String {
 fn cost_is_length(run: &RunRecord) -> bool {
     run.cost.zip(run.length).is_some_and(|(cost, length)| (cost - length).abs() <= ROUNDING * length)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::results::{Optimum, Progress};
+    use crate::testing::{campaign, detour, entry, nothing};
+
+    #[test]
+    fn improvements_are_gaps_and_failures_the_worst() {
+        let campaign = campaign(vec![entry("good", detour), entry("bad", nothing)]);
+        let mut results = campaign.empty_results(1);
+        results.scenes[0].optimum = Optimum { length: Some(10.0), path: Vec::new(), reason: None };
+        results.scenes[1].optimum.length = None;
+        let progress = |costs: [f64; 3]| {
+            let at = |(i, cost): (u32, f64)| Progress { evaluations: u64::from(10 * i), time_us: i.into(), cost };
+            (1..).zip(costs).map(at).collect::<Vec<_>>()
+        };
+        let run = |planner: &str, scene: &str, costs| RunRecord {
+            evaluations: 50,
+            time_us: 9.0,
+            progress: progress(costs),
+            ..RunRecord::empty(scene, planner, 0, 1)
+        };
+        let valid = |run: RunRecord, cost| RunRecord { valid: true, length: Some(11.0), cost: Some(cost), ..run };
+        results.runs = vec![
+            valid(run("good", "b-scene", [5.0, 12.0, 11.0]), 11.0), // the first is of a path through an obstacle
+            valid(run("good", "a-scene", [12.0, 11.5, 11.0]), 11.0), // no optimum
+            valid(run("bad", "b-scene", [7.0, 6.0, 5.0]), 5.0),     // the cost is no length
+            run("bad", "a-scene", [12.0, 11.0, 10.5]),              // not valid
+        ];
+        let expected = "\
+evaluations,function_value,function_id,algorithm_id,dimension,run_id,time_us
+20,0.19999999999999996,b-scene,good,2,0,2
+30,0.10000000000000009,b-scene,good,2,0,3
+50,0.10000000000000009,b-scene,good,2,0,9
+10,12,a-scene,good,2,0,1
+20,11.5,a-scene,good,2,0,2
+30,11,a-scene,good,2,0,3
+50,11,a-scene,good,2,0,9
+50,0.10000000000000009,b-scene,bad,2,0,9
+50,1000000000,a-scene,bad,2,0,9
+";
+        assert_eq!(csv(&results), expected);
+    }
+}

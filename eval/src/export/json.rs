@@ -133,3 +133,6 @@ fn plain(value: toml::Value) -> Value {
         toml::Value::Table(table) => table.into_iter().map(|(key, value)| (key, plain(value))).collect(),
     }
 }
+
+#[cfg(test)]
+mod tests;

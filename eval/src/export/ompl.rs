@@ -179,3 +179,6 @@ fn unique(names: impl Iterator<Item = String>) -> Vec<String> {
     };
     names.map(&mut number).collect()
 }
+
+#[cfg(test)]
+mod tests;
