@@ -22,7 +22,7 @@ impl ReadPlanner {
     fn median(&self, property: &str) -> f64 {
         let index = self.properties.iter().position(|p| p == property).unwrap();
         let values = self.runs.iter().map(|run| run[index].as_ref().map_or(f64::INFINITY, |v| v.parse().unwrap()));
-        crate::stats::median(&values.collect::<Vec<f64>>()).unwrap()
+        crate::statistics::median(&values.collect::<Vec<f64>>()).unwrap()
     }
 }
 
