@@ -15,6 +15,7 @@ mod summary;
 pub mod targets;
 
 pub use blocks::{Measure, Over, quality};
+pub(crate) use curves::cost_is_length;
 pub use curves::{Curves, Effort};
 pub use grid::Grid;
 pub use summary::{Summary, counted_length, summarise};

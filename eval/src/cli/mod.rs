@@ -4,6 +4,7 @@
 //! for failed (`--fail-on`); 2 bad usage or input, and then nothing was written.
 
 mod check;
+mod compare;
 mod list;
 mod output;
 mod plan;
@@ -57,8 +58,8 @@ enum Command {
     Status(NotYetArgs),
     /// Not yet: join shards
     Merge(NotYetArgs),
-    /// Not yet: what changed between two campaigns
-    Compare(NotYetArgs),
+    /// What changed between two campaigns, beyond noise
+    Compare(CompareArgs),
     /// Not yet: plan for a bench in another process
     Worker(NotYetArgs),
 }
@@ -198,6 +199,31 @@ struct CheckArgs {
     files: Vec<PathBuf>,
 }
 
+/// What makes `compare` fail.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Gate {
+    /// Paths are worse beyond noise, or runs are missing in NEW
+    Worse,
+    /// A planner is slower: by 10 % at least, and its interval leaves 1 out
+    Slower,
+    /// Anything but times differs, in any run
+    Changed,
+}
+
+#[derive(Args)]
+struct CompareArgs {
+    /// Folder of a campaign, or a runs.csv, in which the time columns may be missing
+    old: PathBuf,
+    /// The same, later; runs are paired by scene, planner and repeat, and must have the same seeds
+    new: PathBuf,
+    /// As JSON
+    #[arg(long)]
+    json: bool,
+    /// Exit with 1 when it is so
+    #[arg(long, value_name = "WHAT", value_delimiter = ',')]
+    fail_on: Vec<Gate>,
+}
+
 /// Parses the command line, does the work, prints errors to standard error.
 pub fn main() -> ExitCode {
     let cli = Cli::parse();
@@ -210,7 +236,7 @@ pub fn main() -> ExitCode {
         Some(Command::Check(args)) => check::check(&args),
         Some(Command::Status(args)) => not_yet("touchline status", &args),
         Some(Command::Merge(args)) => not_yet("touchline merge", &args),
-        Some(Command::Compare(args)) => not_yet("touchline compare", &args),
+        Some(Command::Compare(args)) => compare::compare(&args),
         Some(Command::Worker(args)) => not_yet("touchline worker", &args),
     };
     outcome.unwrap_or_else(|error| {

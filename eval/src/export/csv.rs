@@ -1,7 +1,7 @@
 //! `runs.csv` and `summary.csv`.
 
-use crate::results::Results;
 use crate::analysis::{Summary, summarise};
+use crate::results::Results;
 
 /// The columns of `runs.csv`, stable: new ones come last.
 pub const RUN_COLUMNS: [&str; 19] = [

@@ -6,7 +6,8 @@
 //! [doi](https://doi.org/10.1145/3510426).
 
 use super::csv::{cell, csv_text};
-use crate::results::{Results, RunRecord};
+use crate::analysis::cost_is_length;
+use crate::results::Results;
 
 /// The columns.
 pub const COLUMNS: [&str; 7] =
@@ -15,12 +16,12 @@ pub const COLUMNS: [&str; 7] =
 /// The value of a run without a valid path: no path is that long, and `IOHanalyzer` knows no infinity.
 pub const FAILURE: f64 = 1e9;
 
-/// Costs that are lengths agree with the path's to the rounding of a sum of a hundred of them.
-const ROUNDING: f64 = 1e-9;
+/// A cost that is below the optimum by a larger share is of no valid path; arcs stored as polylines come as near.
+const BELOW: f64 = 1e-6;
 
 /// One row for each improvement of a run, and one for its end, where the judge's verdict counts: a run without a
 /// valid path has that row alone, of value [`FAILURE`]. Improvements are in the planner's own cost, so they are told
-/// only of runs in which that is the path's length; costs below the optimum, of paths through obstacles, are left out.
+/// only of planners whose cost is the path's length in every valid run; costs below the optimum, of paths through obstacles, are left out.
 pub fn csv(results: &Results) -> String {
     let mut rows: Vec<[String; 7]> = Vec::new();
     for run in &results.runs {
@@ -32,8 +33,8 @@ pub fn csv(results: &Results) -> String {
             [evaluations, cell(Some(value)), function, algorithm, "2".to_owned(), repeat, cell(Some(time_us))]
         };
         let end = run.length.filter(|_| run.valid);
-        if end.is_some() && cost_is_length(run) {
-            let possible = run.progress.iter().filter(|p| optimum.is_none_or(|o| p.cost >= o * (1.0 - ROUNDING)));
+        if end.is_some() && results.runs_of(&run.planner, None).all(cost_is_length) {
+            let possible = run.progress.iter().filter(|p| optimum.is_none_or(|o| p.cost >= o * (1.0 - BELOW)));
             rows.extend(possible.map(|p| row(p.evaluations, value(p.cost), p.time_us)));
         }
         rows.push(row(run.evaluations, end.map_or(FAILURE, value), run.time_us));
@@ -41,15 +42,10 @@ pub fn csv(results: &Results) -> String {
     csv_text(&COLUMNS, rows.into_iter())
 }
 
-/// Whether the planner's cost of the path that it returned is that path's length.
-fn cost_is_length(run: &RunRecord) -> bool {
-    run.cost.zip(run.length).is_some_and(|(cost, length)| (cost - length).abs() <= ROUNDING * length)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::results::{Optimum, Progress};
+    use crate::results::{Optimum, Progress, RunRecord};
     use crate::testing::{campaign, detour, entry, nothing};
 
     #[test]
