@@ -25,6 +25,7 @@ pub mod table;
 pub mod trace;
 pub mod verdict;
 pub mod work;
+pub mod worker;
 
 #[cfg(test)]
 mod testing;

@@ -10,13 +10,16 @@ mod output;
 mod plan;
 mod report;
 mod run;
+mod worker;
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::error::Error;
+use crate::worker::tether;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -60,8 +63,15 @@ enum Command {
     Merge(NotYetArgs),
     /// What changed between two campaigns, beyond noise
     Compare(CompareArgs),
-    /// Not yet: plan for a bench in another process
-    Worker(NotYetArgs),
+    /// Plan for another process: requests on standard input, answers on standard output, as lines of JSON
+    Worker,
+    /// Become COMMAND, and end with the process PARENT
+    #[command(name = tether::COMMAND, hide = true)]
+    Tethered {
+        parent: u32,
+        #[arg(last = true, required = true)]
+        command: Vec<OsString>,
+    },
 }
 
 #[derive(Args)]
@@ -237,7 +247,8 @@ pub fn main() -> ExitCode {
         Some(Command::Status(args)) => not_yet("touchline status", &args),
         Some(Command::Merge(args)) => not_yet("touchline merge", &args),
         Some(Command::Compare(args)) => compare::compare(&args),
-        Some(Command::Worker(args)) => not_yet("touchline worker", &args),
+        Some(Command::Worker) => worker::worker(),
+        Some(Command::Tethered { parent, command }) => Err(worker::tethered(parent, &command)),
     };
     outcome.unwrap_or_else(|error| {
         eprintln!("error: {error}");

@@ -16,7 +16,7 @@ use crate::work::Work;
 use crate::{machine, replay, runner, table};
 
 pub(super) fn run(args: &RunArgs) -> Result<ExitCode, Error> {
-    for (asked, what) in [(args.resume, "--resume"), (args.shard.is_some(), "--shard"), (args.isolate, "--isolate")] {
+    for (asked, what) in [(args.resume, "--resume"), (args.shard.is_some(), "--shard")] {
         if asked {
             return Err(Error::NotYet(what.to_owned()));
         }
@@ -40,7 +40,8 @@ pub(super) fn run(args: &RunArgs) -> Result<ExitCode, Error> {
         }
         return Ok(ExitCode::SUCCESS);
     }
-    let (folder, results) = carry_out(&campaign, args.out.as_deref(), jobs, args.quiet)?;
+    let (folder, results) =
+        carry_out(&campaign, args.out.as_deref(), Work { isolate: args.isolate, ..Work::all(jobs) }, args.quiet)?;
     if !args.quiet {
         say("");
         say(table::render(&results));
@@ -78,14 +79,14 @@ fn dry_run(campaign: &Campaign, folder: &Path) {
     say(format!("Would write to {}; nothing was run.", folder.display()));
 }
 
-fn carry_out(campaign: &Campaign, out: Option<&Path>, jobs: usize, quiet: bool) -> Result<(PathBuf, Results), Error> {
+fn carry_out(campaign: &Campaign, out: Option<&Path>, work: Work, quiet: bool) -> Result<(PathBuf, Results), Error> {
     let claim = output::Claim::new(out, &campaign.comparison.name)?;
-    let results = campaign.empty_results(jobs);
+    let results = campaign.empty_results(work.jobs);
     let mut store = Store::create(claim.folder(), campaign, &results)?;
     let folder = claim.keep();
     let optima: Vec<Option<f64>> = results.scenes.iter().map(|s| s.optimum.length).collect();
     let mut progress = Progress::new(campaign.run_count(), quiet);
-    runner::run(campaign, &optima, &Work::all(jobs), |record| {
+    runner::run(campaign, &optima, &work, |record| {
         progress.step();
         store.add(&record)
     })?;
