@@ -83,6 +83,9 @@ fn the_grid_search_finds_the_lengths_of_the_scenario_and_the_optimum_is_no_longe
     let expected = "note: shortest octile paths by our search, all as in t.map.scen: t-p0000 6.00000000, \
                     t-p0001 1.00000000, t-p0002 6.41421356, t-p0003 4.00000000\n";
     assert_eq!(notes, expected);
+    let printed = place.ok(&["check", "--optimum", "maps.toml"]);
+    assert!(printed.contains("t-p0000: exact optimum 6.000000"), "{printed}");
+    assert!(printed.contains("t-p0001: exact optimum 1.000000"), "{printed}");
     place.ok(&["run", "maps.toml", "--out", "out", "--quiet", "--fail-on", "invalid"]);
     let runs = place.read("out/runs.csv");
     let sqrt2 = std::f64::consts::SQRT_2;

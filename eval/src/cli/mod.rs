@@ -31,6 +31,9 @@ Examples:
   touchline check configs/scenes/*.toml           is it well-formed?
   touchline report out                            report.html and tables again from out/runs.db
 
+  touchline report out --format ompl,ioh          logs for Planner Arena, a table for IOHanalyzer
+  touchline compare before after --fail-on worse  what changed, beyond noise?
+
 Exit codes: 0 done, whatever the planners achieved; 1 --fail-on found something; 2 bad usage or input.";
 
 /// Compares 2D path planners for robot soccer: every path is judged by an
@@ -160,9 +163,9 @@ enum Format {
     Csv,
     /// paths.jsonl, manifest.json, and everything in results.json, with its schema
     Json,
-    /// ompl/SCENE.log: logs for ompl_benchmark_statistics and Planner Arena
+    /// ompl/SCENE.log: logs that OMPL's statistics script reads, for Planner Arena
     Ompl,
-    /// ioh.csv for IOHanalyzer: a row an improvement, its value the gap to the optimum, 1e9 for a failed run
+    /// ioh.csv for `IOHanalyzer`: a row an improvement, its value the gap to the optimum, 1e9 for a failed run
     Ioh,
 }
 
@@ -207,6 +210,9 @@ struct CheckArgs {
     /// Scene and comparison files
     #[arg(required = true)]
     files: Vec<PathBuf>,
+    /// Say the exact shortest length in every scene as well
+    #[arg(long)]
+    optimum: bool,
 }
 
 /// What makes `compare` fail.

@@ -151,7 +151,7 @@ pub fn compare(old: &Side, new: &Side) -> Result<Changes, Error> {
     if pairs.is_empty() {
         return Err(refuse(format!("no run in common; one has {}, the other {}", old.describe(), new.describe())));
     }
-    let mut groups: Vec<(&str, Option<&str>, Vec<[&Run; 2]>)> =
+    let mut groups: Vec<Group<'_>> =
         pairs.iter().map(|((scene, planner), runs)| (*planner, Some(*scene), runs.clone())).collect();
     groups.extend(over_scenes(&pairs));
     let mut changes: Vec<Change> = groups.iter().map(|(planner, scene, runs)| change(planner, *scene, runs)).collect();
@@ -167,6 +167,7 @@ pub fn compare(old: &Side, new: &Side) -> Result<Changes, Error> {
     Ok(Changes { changes, missing: absent(old, new), added: absent(new, old), notes: notes(old, new) })
 }
 
+/// A planner, a scene or none for all of them, and the pairs of runs.
 type Group<'a> = (&'a str, Option<&'a str>, Vec<[&'a Run; 2]>);
 
 /// Each planner over all its scenes, where they are several.
