@@ -1,6 +1,6 @@
 use std::f64::consts::SQRT_2;
 
-use super::cover::{pinches, rectangles};
+use super::cover::{Rectangle, pinches, rectangles};
 use super::*;
 use crate::Point;
 
@@ -70,7 +70,7 @@ fn printed_lengths_say_how_exact_they_are() {
         problems("s.scen", &text).unwrap()[0].tolerance
     };
     assert_eq!((of("3.41421"), of("3.41421356"), of("7")), (1e-5, 1e-6, 1e-6));
-    assert_eq!(of("2000.12345678"), 2000.123_456_78 * 1e-7, "√2 in single precision");
+    assert_eq!(of("2000.12345678"), 2.000_123_456_78e-4, "√2 in single precision");
 }
 
 #[test]
@@ -92,7 +92,7 @@ fn mistakes_in_scenarios_are_named_with_their_line() {
 }
 
 /// Whether the open rectangle holds a point given in halves of a cell.
-fn holds(r: &super::cover::Rectangle, x: isize, y: isize) -> bool {
+fn holds(r: &Rectangle, x: isize, y: isize) -> bool {
     (2 * r.left < x) && (x < 2 * r.right + 2) && (2 * r.low < y) && (y < 2 * r.high + 2)
 }
 
