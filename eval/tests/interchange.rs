@@ -1,4 +1,4 @@
-//! What other programs read and write: OMPL's log, IOHanalyzer's table, one JSON document, grid maps; and the gate
+//! What other programs read and write: OMPL's log, `IOHanalyzer`'s table, one JSON document, grid maps; and the gate
 //! against regressions, on a small comparison whose counts are kept in the repository.
 
 use std::fs;
