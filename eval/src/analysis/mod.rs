@@ -1,7 +1,7 @@
 //! From a campaign's results to figures ready to print.
 //!
-//! Everything but [`summarise`] starts from a [`Grid`], the runs sorted once by planner and scene, and covers
-//! the scenes that count: tuning scenes are left out. Planners and scenes are named by their position in the grid.
+//! Everything but [`summarise`] starts from a [`Grid`], the runs of the test scenes sorted once by planner and scene:
+//! tuning scenes are no evidence. Planners and scenes are named by their position in the grid.
 
 mod blocks;
 mod curves;
@@ -13,6 +13,9 @@ pub mod ranking;
 pub mod sentences;
 mod summary;
 pub mod targets;
+
+#[cfg(test)]
+mod testing;
 
 pub use blocks::{Measure, Over, quality};
 pub(crate) use curves::cost_is_length;

@@ -1,6 +1,6 @@
 //! The rows of the comparison table.
 
-use crate::results::{Results, RunRecord};
+use crate::results::{Results, RunRecord, SceneSet};
 use crate::statistics::{median, quantile};
 
 /// What the comparison table says of one planner, over one scene or all.
@@ -8,7 +8,7 @@ use crate::statistics::{median, quantile};
 pub struct Summary {
     /// The planner's label.
     pub planner: String,
-    /// The scene, `None` for all of them together.
+    /// The scene, `None` for all test scenes together.
     pub scene: Option<String>,
     /// Runs made.
     pub runs: usize,
@@ -33,11 +33,13 @@ pub fn counted_length(run: &RunRecord) -> f64 {
     if run.valid { run.length.unwrap_or(f64::INFINITY) } else { f64::INFINITY }
 }
 
-/// Summarises the runs of one planner. `None` when it has no runs there.
+/// Summarises the runs of one planner in one scene, or (`None`) in all test scenes. `None` when it has no runs there.
 ///
 /// Failures are +∞ in every median.
 pub fn summarise(results: &Results, planner: &str, scene: Option<&str>) -> Option<Summary> {
-    let runs: Vec<&RunRecord> = results.runs_of(planner, scene).collect();
+    let tuning = |name: &str| results.scenes.iter().any(|s| s.scene.name == name && s.set == SceneSet::Tuning);
+    let counts = |r: &&RunRecord| scene.is_some() || !tuning(&r.scene);
+    let runs: Vec<&RunRecord> = results.runs_of(planner, scene).filter(counts).collect();
     let of = |f: &dyn Fn(&RunRecord) -> f64| runs.iter().map(|r| f(r)).collect::<Vec<f64>>();
     let lengths = of(&counted_length);
     // A median over the easier part of the scenes would drop the failures in the others.
@@ -55,4 +57,21 @@ pub fn summarise(results: &Results, planner: &str, scene: Option<&str>) -> Optio
         time_us_median: median(&of(&|r| r.time_us))?,
         evaluations_median: median(&of(&|r| r.evaluations as f64))?,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{results, run};
+    use super::*;
+
+    #[test]
+    fn tuning_scenes_stand_alone() {
+        let runs = vec![run("s", "a", 0, 11.0), run("t", "a", 0, f64::INFINITY)];
+        let mut results = results(&["a"], &[("s", Some(10.0)), ("t", None)], runs);
+        results.scenes[1].set = SceneSet::Tuning;
+        let all = summarise(&results, "a", None).unwrap();
+        assert_eq!((all.runs, all.length_median), (1, 11.0));
+        let tuning = summarise(&results, "a", Some("t")).unwrap();
+        assert_eq!((tuning.runs, tuning.length_median, tuning.gap_median), (1, f64::INFINITY, None));
+    }
 }
