@@ -4,6 +4,7 @@
 //! for failed (`--fail-on`); 2 bad usage or input, and then nothing was written.
 
 mod check;
+mod compare;
 mod list;
 mod output;
 mod plan;
@@ -29,6 +30,9 @@ Examples:
   touchline plan scene.toml --planner pso --set particles=30 --seed 7 --trace swarm.jsonl
   touchline check configs/scenes/*.toml           is it well-formed?
   touchline report out                            report.html and tables again from out/runs.db
+
+  touchline report out --format ompl,ioh          logs for Planner Arena, a table for IOHanalyzer
+  touchline compare before after --fail-on worse  what changed, beyond noise?
 
 Exit codes: 0 done, whatever the planners achieved; 1 --fail-on found something; 2 bad usage or input.";
 
@@ -60,8 +64,8 @@ enum Command {
     Status(NotYetArgs),
     /// Not yet: join shards
     Merge(NotYetArgs),
-    /// Not yet: what changed between two campaigns
-    Compare(NotYetArgs),
+    /// What changed between two campaigns, beyond noise
+    Compare(CompareArgs),
     /// Plan for another process: requests on standard input, answers on standard output, as lines of JSON
     Worker,
     /// Become COMMAND, and end with the process PARENT
@@ -157,11 +161,11 @@ enum Format {
     Html,
     /// runs.csv and summary.csv
     Csv,
-    /// paths.jsonl and manifest.json
+    /// paths.jsonl, manifest.json, and everything in results.json, with its schema
     Json,
-    /// Not yet: a benchmark log of OMPL
+    /// ompl/SCENE.log: logs that OMPL's statistics script reads, for Planner Arena
     Ompl,
-    /// Not yet: data for `IOHanalyzer`
+    /// ioh.csv for `IOHanalyzer`: a row an improvement, its value the gap to the optimum, 1e9 for a failed run
     Ioh,
 }
 
@@ -177,7 +181,7 @@ enum Tongue {
 struct ReportArgs {
     /// Folder of a campaign
     dir: PathBuf,
-    /// What to make; default: everything
+    /// What to make; default: html, csv, json, and the comparison with its scenes
     #[arg(long, value_name = "FORMAT", value_delimiter = ',')]
     format: Vec<Format>,
     /// Language of report.html
@@ -206,6 +210,34 @@ struct CheckArgs {
     /// Scene and comparison files
     #[arg(required = true)]
     files: Vec<PathBuf>,
+    /// Say the exact shortest length in every scene as well
+    #[arg(long)]
+    optimum: bool,
+}
+
+/// What makes `compare` fail.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Gate {
+    /// Paths are worse beyond noise, or runs are missing in NEW
+    Worse,
+    /// A planner is slower: by 10 % at least, and its interval leaves 1 out
+    Slower,
+    /// Anything but times differs, in any run
+    Changed,
+}
+
+#[derive(Args)]
+struct CompareArgs {
+    /// Folder of a campaign, or a runs.csv, in which the time columns may be missing
+    old: PathBuf,
+    /// The same, later; runs are paired by scene, planner and repeat, and must have the same seeds
+    new: PathBuf,
+    /// As JSON
+    #[arg(long)]
+    json: bool,
+    /// Exit with 1 when it is so
+    #[arg(long, value_name = "WHAT", value_delimiter = ',')]
+    fail_on: Vec<Gate>,
 }
 
 /// Parses the command line, does the work, prints errors to standard error.
@@ -220,7 +252,7 @@ pub fn main() -> ExitCode {
         Some(Command::Check(args)) => check::check(&args),
         Some(Command::Status(args)) => not_yet("touchline status", &args),
         Some(Command::Merge(args)) => not_yet("touchline merge", &args),
-        Some(Command::Compare(args)) => not_yet("touchline compare", &args),
+        Some(Command::Compare(args)) => compare::compare(&args),
         Some(Command::Worker) => worker::worker(),
         Some(Command::Tethered { parent, command }) => Err(worker::tethered(parent, &command)),
     };

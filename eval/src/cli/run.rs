@@ -98,7 +98,7 @@ fn carry_out(campaign: &Campaign, out: Option<&Path>, work: &Work, quiet: bool) 
     store.finish(&manifest)?;
     // From the store, as `report` does it: what is exported is what was kept.
     let stored = store.read()?;
-    export::write(&folder, &stored, Formats::ALL, Language::English)?;
+    export::write(&folder, &stored, Formats::OWN, Language::English)?;
     Ok((folder, stored.results))
 }
 
