@@ -16,7 +16,7 @@ use crate::config::PlannerEntry;
 use crate::report::FULL;
 use crate::results::RunRecord;
 use crate::snapshot::{MOST_GENERATIONS, Ruler, Snapshot, has_state, state};
-use crate::stats::quantile;
+use crate::statistics::quantile;
 
 /// Snapshots of every planner in the scenes that reports show in full, in the order of scenes
 /// and planners. `runs` are the campaign's, sorted by repeat within scene and planner.

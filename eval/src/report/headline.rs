@@ -2,9 +2,9 @@
 
 use super::language::Strings;
 use super::planned;
+use crate::analysis::{Summary, summarise};
 use crate::format;
 use crate::results::Results;
-use crate::stats::{Summary, summarise};
 
 /// More names than this are counted instead of listed.
 const NAMED: usize = 4;

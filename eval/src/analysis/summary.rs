@@ -1,25 +1,7 @@
-//! Order statistics in which failures count: a run without a valid path is +∞.
+//! The rows of the comparison table.
 
 use crate::results::{Results, RunRecord};
-
-/// The q-quantile, 0 ≤ q ≤ 1, of `values`, by linear interpolation between order
-/// statistics (Hyndman & Fan 1996, type 7). Infinite values take part; between a
-/// finite value and +∞ the answer is +∞. `None` for no values.
-pub fn quantile(values: &[f64], q: f64) -> Option<f64> {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let last = sorted.len().checked_sub(1)?;
-    let at = q * last as f64;
-    let (below, share) = (at.floor() as usize, at.fract());
-    let low = sorted[below];
-    Some(if share == 0.0 { low } else { low + share * (sorted[below + 1] - low) })
-        .map(|v| if v.is_nan() { f64::INFINITY } else { v })
-}
-
-/// The median of `values`.
-pub fn median(values: &[f64]) -> Option<f64> {
-    quantile(values, 0.5)
-}
+use crate::statistics::{median, quantile};
 
 /// What the comparison table says of one planner, over one scene or all.
 #[derive(Debug, Clone, PartialEq)]
@@ -73,20 +55,4 @@ pub fn summarise(results: &Results, planner: &str, scene: Option<&str>) -> Optio
         time_us_median: median(&of(&|r| r.time_us))?,
         evaluations_median: median(&of(&|r| r.evaluations as f64))?,
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn quantiles_with_failures() {
-        let inf = f64::INFINITY;
-        assert_eq!(median(&[3.0, 1.0, 2.0]), Some(2.0));
-        assert_eq!(median(&[1.0, 2.0, 3.0, 4.0]), Some(2.5));
-        assert_eq!(median(&[1.0, 2.0, inf, inf]), Some(inf));
-        assert_eq!(median(&[inf, inf]), Some(inf));
-        assert_eq!(quantile(&[1.0, 2.0, 3.0, 4.0, inf], 0.25), Some(2.0));
-        assert_eq!(median(&[]), None);
-    }
 }
