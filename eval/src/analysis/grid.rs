@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::results::{PlannerInfo, Results, RunRecord, SceneResult};
+use crate::results::{PlannerInfo, Results, RunRecord, SceneResult, SceneSet};
 
 /// The runs of the scenes that count, by planner and scene, each cell sorted by repeat.
 pub struct Grid<'a> {
@@ -16,7 +16,7 @@ pub struct Grid<'a> {
 impl<'a> Grid<'a> {
     /// Sorts the runs of `results`.
     pub fn new(results: &'a Results) -> Self {
-        let scenes: Vec<&SceneResult> = results.scenes.iter().collect();
+        let scenes: Vec<&SceneResult> = results.scenes.iter().filter(|s| s.set == SceneSet::Test).collect();
         let columns: BTreeMap<&str, usize> = results.planners.iter().map(|p| p.label.as_str()).zip(0..).collect();
         let rows: BTreeMap<&str, usize> = scenes.iter().map(|s| s.scene.name.as_str()).zip(0..).collect();
         let mut cells = vec![Vec::new(); columns.len() * scenes.len()];

@@ -1,6 +1,6 @@
 //! The rows of the comparison table.
 
-use crate::results::{Results, RunRecord};
+use crate::results::{Results, RunRecord, SceneSet};
 use crate::statistics::{median, quantile};
 
 /// What the comparison table says of one planner, over one scene or all.
@@ -8,7 +8,7 @@ use crate::statistics::{median, quantile};
 pub struct Summary {
     /// The planner's label.
     pub planner: String,
-    /// The scene, `None` for all of them together.
+    /// The scene, `None` for all test scenes together.
     pub scene: Option<String>,
     /// Runs made.
     pub runs: usize,
@@ -37,7 +37,9 @@ pub fn counted_length(run: &RunRecord) -> f64 {
 ///
 /// Failures are +∞ in every median.
 pub fn summarise(results: &Results, planner: &str, scene: Option<&str>) -> Option<Summary> {
-    let runs: Vec<&RunRecord> = results.runs_of(planner, scene).collect();
+    let tuning = |name: &str| results.scenes.iter().any(|s| s.set == SceneSet::Tuning && s.scene.name == name);
+    let counts = |r: &&RunRecord| scene.is_some() || !tuning(&r.scene);
+    let runs: Vec<&RunRecord> = results.runs_of(planner, scene).filter(counts).collect();
     let of = |f: &dyn Fn(&RunRecord) -> f64| runs.iter().map(|r| f(r)).collect::<Vec<f64>>();
     let lengths = of(&counted_length);
     // A median over the easier part of the scenes would drop the failures in the others.

@@ -43,5 +43,5 @@ pub fn swatch(index: usize) -> Value {
 
 /// A table; `id` is unique in the page. The first head is about the rows' names.
 pub fn table(id: &str, caption: &str, heads: &[&str], rows: Vec<Value>) -> Value {
-    context! { id, caption, heads, rows }
+    context! { id, caption, heads => heads.iter().copied().map(Value::from).collect::<Vec<_>>(), rows }
 }

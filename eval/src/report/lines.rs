@@ -99,7 +99,8 @@ fn draw(line: &Line<'_>, join: Join, bands: bool, x: &Axis, y: &Axis) -> String 
                 let upper = steps(&upper);
                 // Backwards along the same steps: what holds until the next place is drawn as its mirror.
                 lower.reverse();
-                let _ = write!(out, r#"<path class="band fill {}" d="M{upper}L{}z"/>"#, palette::colour(i), back(&lower));
+                let _ =
+                    write!(out, r#"<path class="band fill {}" d="M{upper}L{}z"/>"#, palette::colour(i), back(&lower));
             }
             let _ = write!(out, r#"<path class="{} curve" d="M{}"/>"#, palette::line(i), steps(&drawn));
         }
