@@ -104,6 +104,48 @@ pub fn values_in(grid: &Grid<'_>, scene: usize, measure: Measure) -> Vec<Vec<f64
     planners.clone().map(|p| grid.runs(p, scene).iter().map(value).collect()).collect()
 }
 
-fn rounded(value: f64) -> f64 {
+/// The nearest multiple of the resolution.
+pub fn rounded(value: f64) -> f64 {
     (value / RESOLUTION).round() * RESOLUTION
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{one_scene, results, run};
+    use super::*;
+
+    const INF: f64 = f64::INFINITY;
+
+    #[test]
+    fn repeats_of_one_scene() {
+        let mut results = one_scene(&[("a", &[1.0, INF, 1e-9]), ("b", &[2.0, 2.0, 2.0])]);
+        results.runs.remove(4);
+        let grid = Grid::new(&results);
+        assert_eq!(quality(&grid), Measure::Gap);
+        let blocks = Blocks::new(&grid, Measure::Gap);
+        assert_eq!(blocks.over, Over::Repeats);
+        // 10⁻¹¹ is no gap; 1 % and 2 % are whole multiples of the resolution but for one rounding.
+        let near = |v: Option<f64>, e: f64| v == Some(e) || v.is_some_and(|v| (v - e).abs() < 1e-15);
+        let [a, b] = &blocks.values[..] else { panic!() };
+        assert!(near(a[0], 0.01) && near(a[1], INF) && near(a[2], 0.0), "{a:?}");
+        assert!(near(b[0], 0.02) && b[1].is_none() && near(b[2], 0.02), "{b:?}");
+        assert_eq!(blocks.settled, [false, true]);
+        assert_eq!(blocks.both(0, 1).0.len(), 2);
+    }
+
+    #[test]
+    fn scenes_are_the_blocks_where_there_are_several() {
+        let lengths = [("s", "a", [11.0, 12.0, INF]), ("t", "a", [20.0, INF, INF]), ("s", "b", [10.5, 10.5, 10.5])];
+        let runs = lengths.iter().flat_map(|(s, p, l)| (0..).zip(l).map(|(i, l)| run(s, p, i, *l))).collect();
+        let results = results(&["a", "b"], &[("s", Some(10.0)), ("t", None)], runs);
+        let grid = Grid::new(&results);
+        assert_eq!(quality(&grid), Measure::Length);
+        let blocks = Blocks::new(&grid, Measure::Length);
+        assert_eq!(blocks.over, Over::Scenes);
+        let a: Vec<f64> = blocks.values[0].iter().map(|v| v.unwrap()).collect();
+        // 1e-15: a few roundings of the quotient.
+        assert!((a[0] - 1.2).abs() < 1e-15 && a[1] == INF, "{a:?}");
+        assert_eq!(blocks.values[1][1], None, "b has no runs in t");
+        assert_eq!(blocks.settled, [false, false]);
+    }
 }

@@ -42,3 +42,34 @@ pub fn fixed_budget(
     };
     places.iter().filter_map(band).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::grid::Grid;
+    use super::super::testing::{progress, results, run};
+    use super::*;
+    use crate::results::RunRecord;
+
+    const INF: f64 = f64::INFINITY;
+
+    #[test]
+    fn failures_are_never_good() {
+        let curve = || progress([(10, 100.0, 20.0), (50, 500.0, 12.0)]);
+        let of =
+            |scene: &str, repeat: u32, length: f64| RunRecord { progress: curve(), ..run(scene, "a", repeat, length) };
+        let mut runs: Vec<RunRecord> = (0..7).map(|i| of("s", i, if i < 3 { INF } else { 12.0 })).collect();
+        runs.extend((0..3).map(|i| of("t", i, INF)));
+        let results = results(&["a"], &[("s", Some(10.0)), ("t", Some(10.0))], runs);
+        let curves = Curves::new(&Grid::new(&results));
+        let bands = fixed_budget(&curves, 0, Some(0), Effort::Evaluations, &[9.0, 10.0, 49.0, 50.0, 1e6]);
+        let medians: Vec<f64> = bands.iter().map(|b| b.median).collect();
+        // 12/10 − 1 is 0.2 but for one rounding.
+        assert_eq!(medians[..3], [INF, 1.0, 1.0]);
+        assert!(medians[3..].iter().all(|m| (m - 0.2).abs() < 1e-15), "{medians:?}");
+        // The least and the greatest of seven; three of these failed.
+        let interval = bands[4].interval.unwrap();
+        assert!((interval.low - 0.2).abs() < 1e-15 && interval.high == INF);
+        let all = fixed_budget(&curves, 0, None, Effort::Time, &[1e6]);
+        assert_eq!((all[0].median, all[0].interval), (INF, None), "one of two scenes failed");
+    }
+}

@@ -31,6 +31,12 @@ impl<'a> Grid<'a> {
         Self { planners: &results.planners, scenes, cells }
     }
 
+    /// The same planners in one scene alone, for what is said of that scene.
+    pub fn only(&self, scene: usize) -> Self {
+        let cells = (0..self.planners.len()).map(|p| self.runs(p, scene).to_vec()).collect();
+        Self { planners: self.planners, scenes: vec![self.scenes[scene]], cells }
+    }
+
     /// The runs of one planner in one scene, sorted by repeat.
     pub fn runs(&self, planner: usize, scene: usize) -> &[&'a RunRecord] {
         &self.cells[planner * self.scenes.len() + scene]

@@ -14,6 +14,9 @@ pub mod sentences;
 mod summary;
 pub mod targets;
 
+#[cfg(test)]
+mod testing;
+
 pub use blocks::{Measure, Over, quality};
 pub use curves::{Curves, Effort};
 pub use grid::Grid;

@@ -159,3 +159,60 @@ fn examine(planner: usize, scene: usize, runs: &[&RunRecord]) -> Option<Series> 
     let (runs, p) = (times.len(), drift.map_or(1.0, |d| d.p));
     Some(Series { planner, scene, runs, per_evaluation, outliers, drift, p, last_over_first, spread })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::one_scene;
+    use super::*;
+    use crate::results::Results;
+
+    /// Thirty runs with times of about 1 ms, unequal by up to 2 % in no order, changed by `change`.
+    fn timed(change: impl Fn(&mut RunRecord)) -> Results {
+        let mut results = one_scene(&[("a", &[1.0; 30])]);
+        for r in &mut results.runs {
+            r.time_us += f64::from((r.repeat * 11) % 30) * 20.0 / 30.0;
+            change(r);
+        }
+        results
+    }
+
+    fn noise(results: &Results) -> Noise {
+        Noise::new(&Grid::new(results))
+    }
+
+    #[test]
+    fn quiet_times() {
+        let quiet = noise(&timed(|_| {}));
+        assert_eq!(quiet.verdict(), Verdict::Known { runs: 30, outliers: 0, drift: None });
+        assert_eq!(quiet.verdict().to_string(), "no drift of times between repeats; 0 of 30 times are outliers");
+        assert!(quiet.series[0].spread > 0.005 && quiet.series[0].spread < 0.02);
+        let short = one_scene(&[("a", &[1.0; 5])]);
+        assert_eq!(noise(&short).verdict(), Verdict::Unknown);
+        let equal = noise(&one_scene(&[("a", &[1.0; 6])]));
+        assert_eq!((equal.series[0].drift, equal.series[0].p), (None, 1.0));
+    }
+
+    #[test]
+    fn interruptions_are_outliers() {
+        let noisy = noise(&timed(|r| r.time_us *= if r.repeat == 7 { 3.0 } else { 1.0 }));
+        assert_eq!(noisy.series[0].outliers, [7]);
+        assert!(!noisy.series[0].drifted());
+    }
+
+    #[test]
+    fn drift_is_found() {
+        let drifting = noise(&timed(|r| r.time_us *= 1.0 + 0.01 * f64::from(r.repeat)));
+        assert!(drifting.series[0].drifted() && drifting.series[0].outliers.is_empty());
+        let said = drifting.verdict().to_string();
+        // The repeats' medians 24.5 and 4.5 make 1.245/1.045 = 1.19, give or take the 2 %.
+        let expected = ["18", "19", "20"].map(|n| format!("times rose by up to {n} % between"));
+        assert!(expected.iter().any(|e| said.starts_with(e)), "{said}");
+        // The same times with as many more evaluations are the same speed.
+        let honest = noise(&timed(|r| {
+            r.time_us *= f64::from(1 + r.repeat);
+            r.evaluations *= u64::from(1 + r.repeat);
+        }));
+        assert!(honest.series[0].per_evaluation && !honest.series[0].drifted());
+        assert!(honest.series[0].outliers.is_empty());
+    }
+}

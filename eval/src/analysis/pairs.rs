@@ -1,6 +1,6 @@
 //! Every planner against every other one.
 
-use super::blocks::{Blocks, Measure, Over, values_in};
+use super::blocks::{Blocks, Measure, Over, rounded, values_in};
 use super::grid::Grid;
 use crate::statistics::bootstrap::{Resamples, ratio_interval};
 use crate::statistics::effect_size::a12;
@@ -116,7 +116,8 @@ fn compare(blocks: &Blocks, bootstrap: &Bootstrap, measure: Measure, a: usize, b
     let difference = |(x, y): (&f64, &f64)| match (time, x == y) {
         // Two failures as well: infinity less infinity.
         (_, true) => 0.0,
-        (false, _) => x - y,
+        // Rounded, equal differences of rounded values are ties.
+        (false, _) => rounded(x - y),
         (true, _) => libm::log(*x) - libm::log(*y),
     };
     let differences: Vec<f64> = x.iter().zip(&y).map(difference).collect();
@@ -192,5 +193,105 @@ impl Wins {
     fn share(&self, a: usize, b: usize) -> Option<f64> {
         let at = a * self.planners + b;
         (self.scenes[at] > 0).then(|| self.sums[at] / self.scenes[at] as f64)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{one_scene, results, run};
+    use super::*;
+
+    const INF: f64 = f64::INFINITY;
+
+    #[test]
+    fn a_clear_difference() {
+        let a: Vec<f64> = (0..10).map(|i| 1.0 + 0.1 * f64::from(i)).collect();
+        let b: Vec<f64> = a.iter().map(|g| 4.0 * g).collect();
+        let results = one_scene(&[("a", &a), ("b", &b), ("c", &[4.0; 10])]);
+        let pairs = Pairs::new(&Grid::new(&results), Measure::Gap);
+        assert_eq!((pairs.pairs.len(), pairs.over), (3, Over::Repeats));
+        let pair = pairs.of(1, 0).unwrap();
+        assert_eq!((pair.a, pair.b, pair.blocks, pair.a12), (0, 1, 10, Some(1.0)));
+        let ratio = pair.ratio_of(1).unwrap();
+        let [low, high] = ratio.interval.unwrap();
+        // Every resample's ratio is 4; gaps are multiples of 10⁻⁹, so good to 1e-7 of their 1 %.
+        assert!([ratio.value, low, high].iter().all(|r| (r - 4.0).abs() < 4e-7), "{ratio:?}");
+        // Ten differences of one sign: p = 2/2¹⁰, the least of three, times three.
+        assert_eq!((pair.test.unwrap().p, pair.p), (2.0 / 1024.0, Some(6.0 / 1024.0)));
+        assert!(pairs.pairs.iter().all(|p| p.p.is_some_and(|q| q <= 6.0 / 1024.0)));
+    }
+
+    #[test]
+    fn what_never_varies_is_one_observation() {
+        let results = one_scene(&[("a", &[1.0; 30]), ("b", &[2.0; 30]), ("c", &[INF; 30]), ("d", &[0.0; 30])]);
+        let pairs = Pairs::new(&Grid::new(&results), Measure::Gap);
+        assert!(pairs.pairs.iter().all(|p| p.test.is_none() && p.p.is_none()));
+        assert!(pairs.of(0, 1).unwrap().ratio.is_some());
+        assert!(pairs.of(0, 2).unwrap().ratio.is_none() && pairs.of(0, 3).unwrap().ratio.is_none());
+        assert_eq!(pairs.of(2, 3).unwrap().medians, [INF, 0.0]);
+        // Their times may well vary.
+        let times = Pairs::new(&Grid::new(&results), Measure::Time);
+        assert_eq!(times.of(0, 2).unwrap().a12, Some(1.0), "fast failure is no merit");
+    }
+
+    #[test]
+    fn failures_count() {
+        // a is nearer where it succeeds but fails in 8 of 10.
+        let mut a = [INF; 10];
+        (a[0], a[1]) = (0.1, 0.1);
+        let b: Vec<f64> = (0..10).map(|i| 5.0 + f64::from(i)).collect();
+        let results = one_scene(&[("a", &a), ("b", &b)]);
+        let pairs = Pairs::new(&Grid::new(&results), Measure::Gap);
+        let pair = &pairs.pairs[0];
+        let test = pair.test.unwrap();
+        // Two small negative differences, ranks 1 and 2; the eight failures share the ranks 3 … 10.
+        assert_eq!((test.negative, test.positive), (3.0, 52.0));
+        assert_eq!(pair.medians[0], INF);
+        assert_eq!(pair.ratio, None);
+        assert!((pair.a12.unwrap() - 0.2).abs() < 1e-15, "two of ten beat every one of b's");
+    }
+
+    #[test]
+    fn scenes_not_repeats_are_the_evidence() {
+        let names: Vec<String> = (0..4).map(|i| format!("s{i}")).collect();
+        let scenes: Vec<(&str, Option<f64>)> = names.iter().map(|n| (n.as_str(), Some(10.0))).collect();
+        let cells = scenes.iter().flat_map(|s| (0..50).flat_map(|r| [(s.0, "a", r, 11.0), (s.0, "b", r, 12.0)]));
+        let runs = cells.map(|(s, p, r, l)| run(s, p, r, l + 0.001 * f64::from(r))).collect();
+        let results = results(&["a", "b"], &scenes, runs);
+        let pairs = Pairs::new(&Grid::new(&results), Measure::Gap);
+        let pair = &pairs.pairs[0];
+        // Two of 2⁴ signs, however many repeats.
+        assert_eq!((pairs.over, pair.blocks, pair.p), (Over::Scenes, 4, Some(0.125)));
+        assert_eq!(pair.ratio.unwrap().interval, None);
+    }
+
+    #[test]
+    fn times_are_compared_by_their_ratios() {
+        let mut results = one_scene(&[("a", &[1.0; 9]), ("b", &[1.0; 9])]);
+        for r in &mut results.runs {
+            let factor = if r.planner == "a" { 1.0 } else { f64::from(10 + r.repeat) };
+            r.time_us = factor * f64::from(1 + r.repeat);
+        }
+        let pair = &Pairs::new(&Grid::new(&results), Measure::Time).pairs[0];
+        // Ratios 10 … 18: median 14, second and eighth of nine; all differences of one sign.
+        let ratio = pair.ratio_of(0).unwrap();
+        assert!((pair.ratio_of(1).unwrap().value - 14.0).abs() < 1e-12, "b over a is the other way");
+        assert!((ratio.value * 14.0 - 1.0).abs() < 1e-12, "{ratio:?}");
+        let [low, high] = ratio.interval.unwrap();
+        assert!((low * 17.0 - 1.0).abs() < 1e-12 && (high * 11.0 - 1.0).abs() < 1e-12, "{ratio:?}");
+        assert_eq!(pair.p, Some(2.0 / 512.0));
+    }
+
+    #[test]
+    fn missing_runs_leave_their_blocks_out() {
+        let a: Vec<f64> = (0..12).map(|i| 1.0 + 0.1 * f64::from(i)).collect();
+        let b: Vec<f64> = a.iter().map(|g| 2.0 * g).collect();
+        let results = one_scene(&[("a", &a), ("b", &b[..8]), ("c", &[])]);
+        let pairs = Pairs::new(&Grid::new(&results), Measure::Gap);
+        let pair = pairs.of(0, 1).unwrap();
+        assert_eq!(pair.blocks, 8);
+        assert!((pair.ratio.unwrap().interval.unwrap()[0] - 0.5).abs() < 1e-6);
+        let nobody = pairs.of(0, 2).unwrap();
+        assert_eq!((nobody.blocks, nobody.ratio, nobody.p, nobody.a12), (0, None, None, None));
     }
 }

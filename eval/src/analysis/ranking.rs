@@ -62,7 +62,8 @@ fn groups(sorted: &[f64], critical: f64) -> Vec<[usize; 2]> {
 
 #[cfg(test)]
 mod tests {
-    use super::groups;
+    use super::super::testing::one_scene;
+    use super::*;
 
     #[test]
     fn groups_are_the_largest() {
@@ -70,5 +71,30 @@ mod tests {
         assert_eq!(groups(&[1.0, 1.0, 3.0], 0.5), [[0, 1]]);
         assert_eq!(groups(&[1.0, 2.0], 1.0), [[0, 1]; 0], "a difference of the critical one is one");
         assert!(groups(&[], 1.0).is_empty());
+    }
+
+    #[test]
+    fn the_diagram() {
+        let inf = f64::INFINITY;
+        let column = |shift: f64| (0..12).map(|i| shift + 0.01 * f64::from(i)).collect::<Vec<f64>>();
+        let (mut worst, best, middle) = (column(3.0), column(1.0), column(2.0));
+        worst[3] = inf;
+        let results = one_scene(&[("worst", &worst), ("best", &best), ("middle", &middle)]);
+        let ranking = rank(&Grid::new(&results), Measure::Gap).unwrap();
+        assert_eq!(ranking.order, [1, 2, 0]);
+        assert_eq!(ranking.test.mean_ranks, [3.0, 1.0, 2.0]);
+        // 2.3437·√(3·4/(6·12)) = 0.957 < 1: all differ.
+        assert!((ranking.critical - 0.9568).abs() < 1e-4 && ranking.groups.is_empty(), "{ranking:?}");
+        let shorter = one_scene(&[("worst", &worst), ("best", &best[..10]), ("middle", &middle)]);
+        let ranking = rank(&Grid::new(&shorter), Measure::Gap).unwrap();
+        assert_eq!((ranking.incomplete, ranking.test.blocks), (2, 10));
+        assert_eq!(ranking.groups, [[0, 1], [1, 2]]);
+    }
+
+    #[test]
+    fn repetition_is_no_evidence() {
+        let results = one_scene(&[("a", &[1.0; 30]), ("b", &[2.0; 30])]);
+        assert_eq!(rank(&Grid::new(&results), Measure::Gap), None);
+        assert_eq!(rank(&Grid::new(&one_scene(&[])), Measure::Gap), None);
     }
 }

@@ -152,7 +152,7 @@ impl Sentence {
                         match measure {
                             Measure::Gap => format!("{a} is {times} times nearer the optimum than {b} (median gap"),
                             Measure::Length => format!("{b}'s paths are {times} times as long as {a}'s (median length"),
-                            Measure::Time => format!("{a} is {times} times faster than {b} (median time"),
+                            Measure::Time => format!("{a} is {times} times faster than {b} (median ratio of times"),
                         }
                     }
                     None => format!("{a} is {} than {b} ({}", comparative(*measure), figures(*measure, *medians)),
@@ -195,10 +195,11 @@ fn comparative(measure: Measure) -> &'static str {
 fn figures(measure: Measure, [x, y]: [f64; 2]) -> String {
     let shown = |v: f64| match measure {
         Measure::Gap => format::percent(v),
-        Measure::Length => format::significant(v, 4),
+        Measure::Length => format!("{}\u{a0}×", format::significant(v, 6)),
         Measure::Time => format::time(v),
     };
-    format!("median {} {} against {}", noun(measure), shown(x), shown(y))
+    let of = if measure == Measure::Length { " the shortest" } else { "" };
+    format!("median {} {} against {}{of}", noun(measure), shown(x), shown(y))
 }
 
 fn times(ratio: Ratio) -> String {
@@ -217,5 +218,78 @@ fn evidence(pairs: usize, over: Over) -> String {
     match over {
         Over::Repeats => format!("{pairs} pairs"),
         Over::Scenes => format!("{pairs} scenes"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::one_scene;
+    use super::*;
+
+    fn said(planners: &[(&str, &[f64])], measure: Measure) -> Vec<String> {
+        let results = one_scene(planners);
+        let grid = Grid::new(&results);
+        let names: Vec<&str> = planners.iter().map(|p| p.0).collect();
+        let sentences = [validity(&grid), against_best(&grid, &Pairs::new(&grid, measure))].concat();
+        sentences.iter().map(|s| s.english(&names)).collect()
+    }
+
+    #[test]
+    fn as_a_person_would_quote_them() {
+        let inf = f64::INFINITY;
+        let a: Vec<f64> = (0..30).map(|i| 1.0 + 0.1 * f64::from(i)).collect();
+        let b: Vec<f64> = a.iter().map(|g| 4.2 * g).collect();
+        let like: Vec<f64> = (0..30).map(|i| a[i] + if i % 2 == 0 { 0.05 } else { -0.05 }).collect();
+        let mut failing = vec![inf; 30];
+        failing[0] = 50.0;
+        let lines = said(&[("pso", &b), ("pso-qp", &a), ("like", &like), ("rare", &failing)], Measure::Gap);
+        assert_eq!(
+            lines,
+            [
+                "pso is valid in 30 of 30 runs [89–100\u{a0}%]",
+                "pso-qp is valid in 30 of 30 runs [89–100\u{a0}%]",
+                "like is valid in 30 of 30 runs [89–100\u{a0}%]",
+                "rare is valid in 1 of 30 runs [1–17\u{a0}%]",
+                "pso-qp is 4.2 [4.2, 4.2] times nearer the optimum than pso (median gap, p < 0.001, 30 pairs)",
+                "pso-qp and like cannot be told apart by gap (p = 1, 30 pairs)",
+                "pso-qp is nearer the optimum than rare (median gap 2.45\u{a0}% against ∞, p < 0.001, 30 pairs)",
+            ]
+        );
+    }
+
+    #[test]
+    fn without_evidence_no_p() {
+        let lines = said(&[("exact", &[0.0; 5]), ("far", &[3.0; 5]), ("too", &[0.0; 5])], Measure::Gap);
+        assert_eq!(
+            lines[3..],
+            [
+                "exact is nearer the optimum than far (median gap 0\u{a0}% against 3\u{a0}%; every repeat gives the \
+                 same, so there is no p)",
+                "exact and too are equal by gap (median gap 0\u{a0}% against 0\u{a0}%; every repeat gives the same, \
+                 so there is no p)",
+            ]
+        );
+        assert!(said(&[("none", &[f64::INFINITY; 9]), ("nor", &[f64::INFINITY; 9])], Measure::Gap).len() == 2);
+        assert!(said(&[], Measure::Time).is_empty());
+    }
+
+    #[test]
+    fn fast_failure_is_not_quoted() {
+        let mut results = one_scene(&[("fails", &[f64::INFINITY; 9]), ("slow", &[1.0; 9]), ("quick", &[1.0; 9])]);
+        for r in &mut results.runs {
+            let speed =
+                [("fails", 1.0), ("slow", 24.0), ("quick", 2.0)].into_iter().find(|s| s.0 == r.planner).unwrap();
+            r.time_us = speed.1 * f64::from(100 + r.repeat);
+        }
+        let grid = Grid::new(&results);
+        let lines = against_best(&grid, &Pairs::new(&grid, Measure::Time));
+        let lines: Vec<String> = lines.iter().map(|s| s.english(&["fails", "slow", "quick"])).collect();
+        assert_eq!(
+            lines,
+            [
+                "quick is faster than fails (median time 208\u{a0}µs against ∞, p = 0.012, 9 pairs)",
+                "quick is 12 [12, 12] times faster than slow (median ratio of times, p = 0.012, 9 pairs)",
+            ]
+        );
     }
 }

@@ -97,3 +97,68 @@ pub fn ecdf(curves: &Curves, planner: usize, scene: Option<usize>, targets: &[f6
     }
     Ecdf { steps, pairs }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::grid::Grid;
+    use super::super::testing::{progress, results, run};
+    use super::*;
+    use crate::results::{Results, RunRecord};
+
+    const INF: f64 = f64::INFINITY;
+
+    /// Optimum 10. Of a, four runs: 5 % with a curve, 5 % without, invalid with a fine curve, 300 %.
+    fn four() -> Results {
+        let curve = || progress([(5, 50.0, INF), (10, 100.0, 19.0), (40, 400.0, 10.9), (60, 600.0, 10.5)]);
+        let runs = vec![
+            RunRecord { progress: curve(), ..run("s", "a", 0, 10.5) },
+            run("s", "a", 1, 10.5),
+            RunRecord { progress: curve(), ..run("s", "a", 2, INF) },
+            run("s", "a", 3, 40.0),
+        ];
+        results(&["a"], &[("s", Some(10.0)), ("t", None)], runs)
+    }
+
+    #[test]
+    fn shown_targets_are_among_the_targets() {
+        let targets = targets();
+        assert_eq!(targets.len(), 41);
+        assert!(targets.windows(2).all(|w| w[0] > w[1]));
+        assert!((0..).step_by(10).zip(SHOWN).all(|(k, t): (usize, f64)| targets[k] == t), "{targets:?}");
+    }
+
+    #[test]
+    fn expected_running_times_by_hand() {
+        let curves = Curves::new(&Grid::new(&four()));
+        assert_eq!(curves.scenes(), [0]);
+        let table = ert(&curves, Some(0), &[1.0, 0.1, 0.01], Effort::Evaluations);
+        // 100 %: 10, 100, and two whole runs of 100 that missed, by two; 10 %: 40 instead of 10.
+        let [first, second, third] = &table[0][..] else { panic!() };
+        assert_eq!((first.value, first.reached, first.runs), (155.0, 2, 4));
+        assert_eq!(second.value, 170.0);
+        assert_eq!((third.value, third.reached, third.interval), (INF, 0, None));
+        let [low, high] = first.interval.unwrap();
+        // A resample with a share s of successes costs at least 10 and at most 100/s; some have none.
+        assert!(10.0 < low && low < 155.0 && high == INF, "{low} {high}");
+        let time = ert(&curves, None, &[0.1], Effort::Time);
+        assert_eq!(time[0][0].value, (400.0 + 3000.0) / 2.0);
+    }
+
+    #[test]
+    fn costs_that_are_no_lengths_say_nothing_of_when() {
+        let mut other = four();
+        other.runs[1].cost = Some(10.5 * (1.0 + 2e-5));
+        let curves = Curves::new(&Grid::new(&other));
+        assert_eq!(ert(&curves, Some(0), &[1.0], Effort::Evaluations)[0][0].value, 200.0);
+    }
+
+    #[test]
+    fn distributions_stay_below_one_where_targets_are_missed() {
+        let curves = Curves::new(&Grid::new(&four()));
+        let ecdf = ecdf(&curves, 0, None, &[4.0, 1.0, 0.05001], Effort::Evaluations);
+        assert_eq!(ecdf.pairs, 12);
+        // 10: 400 % and 100 %; 60: 5 %; 100: three of the run without curve and 400 % of the last.
+        assert_eq!(ecdf.steps, [[10.0, 2.0 / 12.0], [60.0, 3.0 / 12.0], [100.0, 7.0 / 12.0]]);
+        assert_eq!([9.9, 10.0, 1e9].map(|x| ecdf.at(x)), [0.0, 2.0 / 12.0, 7.0 / 12.0]);
+    }
+}

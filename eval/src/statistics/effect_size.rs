@@ -24,6 +24,8 @@ mod tests {
         let inf = f64::INFINITY;
         // By hand: 3 beats 1 and 2 and ties with 3, 5 beats all three: (2½ + 3)/6.
         assert_eq!(a12(&[3.0, 5.0], &[1.0, 2.0, 3.0]), Some(5.5 / 6.0));
+        // scipy.stats.mannwhitneyu(x, y).statistic/30
+        assert_eq!(a12(&[1.0, 5.0, 5.0, 7.0, 9.0, 12.0], &[2.0, 5.0, 6.0, 6.0, 10.0]), Some(16.0 / 30.0));
         assert_eq!(a12(&[inf, 1.0], &[inf, 2.0]), Some((0.5 + 1.0) / 4.0));
         assert_eq!(a12(&[inf; 3], &[inf; 2]), Some(0.5));
         assert_eq!(a12(&[0.0], &[-0.0]), Some(0.5));

@@ -3,7 +3,7 @@
 use super::median;
 
 /// Scores beyond this are outliers: hyperfine's 14.826 (x − median)/MAD, which is ten standard deviations of normal
-/// values. Times have heavy upper tails; Iglewicz and Hoaglin's own 3.5 would call a third of honest campaigns noisy.
+/// values. Iglewicz and Hoaglin's own 3.5 is for normal values; times have heavier upper tails.
 pub const THRESHOLD: f64 = 10.0;
 
 /// 0.6745 (xᵢ − median)/MAD for each of finite `values`, MAD the median of |xᵢ − median|.

@@ -97,3 +97,77 @@ fn normal_p(n: f64, zeros: f64, ties: f64, positive: f64) -> f64 {
     let variance = (cube(n) - cube(zeros) - ties / 2.0) / 24.0;
     normal_beyond((positive - mean) / variance.sqrt())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use Zeros::{Pratt, Wilcox};
+
+    const INF: f64 = f64::INFINITY;
+
+    /// The statistic and p of `scipy.stats.wilcoxon(d, zero_method=…)`, 1.17.1.
+    fn check(d: &[f64], zeros: Zeros, statistic: f64, p: f64) {
+        let r = signed_rank(d, zeros).unwrap();
+        assert_eq!(r.statistic(), statistic, "{zeros:?} {d:?}");
+        assert!((r.p - p).abs() < 1e-12, "{zeros:?} {d:?}: {} against {p}", r.p);
+        let turned = signed_rank(&d.iter().map(|d| -d).collect::<Vec<_>>(), zeros).unwrap();
+        assert!((turned.p - p).abs() < 1e-12 && turned.positive == r.negative, "the sides are equal");
+    }
+
+    #[test]
+    fn without_ties_all_signs_are_counted() {
+        // Darwin's maize, the example of SciPy's documentation.
+        let darwin = [49, -67, 8, 16, 6, 23, 28, 41, 14, 29, 56, 24, 75, 60, -48].map(f64::from);
+        check(&darwin, Wilcox, 24.0, 0.041_259_765_625);
+        let plain = [
+            16.9, 3.2, -11.3, 26.4, 11.5, -1.4, -16.7, 21.8, 6.1, -6.0, 28.9, 17.2, 0.7, -10.6, 23.5, 12.6, -4.7,
+            -15.2, 18.1, 8.0, -10.1, 31.2, 12.7, 3.4, -15.5,
+        ];
+        check(&plain, Wilcox, 91.0, 0.055_070_459_842_681_885);
+        check(&[3.0], Wilcox, 0.0, 1.0);
+    }
+
+    #[test]
+    fn beyond_fifty_the_normal_distribution_serves() {
+        // (i + ½)·(1 if i² mod 7 in (0, 1, 2) else −1), i = 1 … n
+        let d = |n: u32| -> Vec<f64> {
+            (1..=n).map(|i| (f64::from(i) + 0.5) * if (i * i) % 7 <= 2 { 1.0 } else { -1.0 }).collect()
+        };
+        check(&d(50), Wilcox, 343.0, 0.003_913_313_547_160_513);
+        check(&d(51), Wilcox, 394.0, 0.011_686_810_240_322_15);
+        assert!(signed_rank(&d(50), Wilcox).unwrap().exact && !signed_rank(&d(51), Wilcox).unwrap().exact);
+    }
+
+    #[test]
+    fn ties_and_zeros() {
+        let ties = [1, 1, -2, 2, 3, 3, -3, 5, 6, 7, 8, 8, 9, 9].map(f64::from);
+        check(&ties[..13], Wilcox, 9.5, 0.009_033_203_125);
+        check(&ties, Pratt, 9.5, 0.006_836_126_627_285_55);
+        let zeros = [0, 0, 0, 1, 1, 2, -2, 3, 4, -1, 5, 6, 7].map(f64::from);
+        check(&zeros, Wilcox, 6.5, 0.033_203_125);
+        check(&zeros, Pratt, 12.5, 0.037_109_375);
+        let more = [0, 0, 0, 0, 1, 1, 2, -2, 3, 4, -1, 5, 6, 7, -7, 7, 8, 9, 10, -3].map(f64::from);
+        check(&more, Wilcox, 25.0, 0.025_933_769_129_646_365);
+        check(&more, Pratt, 41.0, 0.026_679_021_778_791_542);
+    }
+
+    #[test]
+    fn failures_are_the_greatest_differences() {
+        // SciPy with ±1e300 for ±∞.
+        let d =
+            [INF, -INF, INF, INF, 0.0, 0.0, 1.0, 2.0, -3.0, 4.0, 5.0, 6.0, 7.0, 8.0, -9.0, 10.0, 11.0, 12.0, INF, INF];
+        check(&d, Wilcox, 27.5, 0.011_197_759_784_866_293);
+        check(&d, Pratt, 33.5, 0.008_700_814_159_371_616);
+    }
+
+    #[test]
+    fn nothing_to_tell() {
+        assert_eq!(signed_rank(&[], Pratt), None);
+        for d in [&[0.0][..], &[0.0; 80]] {
+            assert!([Wilcox, Pratt].iter().all(|z| signed_rank(d, *z).unwrap().p == 1.0));
+        }
+        // All alike, by hand: two of 2⁶ assignments are as extreme.
+        assert_eq!(signed_rank(&[INF; 6], Pratt).unwrap().p, 2.0 / 64.0);
+        assert!(signed_rank(&[INF; 1000], Pratt).unwrap().p < 1e-9);
+    }
+}
