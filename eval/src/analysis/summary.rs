@@ -33,11 +33,11 @@ pub fn counted_length(run: &RunRecord) -> f64 {
     if run.valid { run.length.unwrap_or(f64::INFINITY) } else { f64::INFINITY }
 }
 
-/// Summarises the runs of one planner. `None` when it has no runs there.
+/// Summarises the runs of one planner in one scene, or (`None`) in all test scenes. `None` when it has no runs there.
 ///
 /// Failures are +∞ in every median.
 pub fn summarise(results: &Results, planner: &str, scene: Option<&str>) -> Option<Summary> {
-    let tuning = |name: &str| results.scenes.iter().any(|s| s.set == SceneSet::Tuning && s.scene.name == name);
+    let tuning = |name: &str| results.scenes.iter().any(|s| s.scene.name == name && s.set == SceneSet::Tuning);
     let counts = |r: &&RunRecord| scene.is_some() || !tuning(&r.scene);
     let runs: Vec<&RunRecord> = results.runs_of(planner, scene).filter(counts).collect();
     let of = |f: &dyn Fn(&RunRecord) -> f64| runs.iter().map(|r| f(r)).collect::<Vec<f64>>();

@@ -1,32 +1,22 @@
 //! Campaigns by hand.
 
-use crate::results::{Manifest, Optimum, PlannerInfo, Progress, Results, RunRecord, RunStatus, SceneResult};
+use crate::results::{Manifest, Optimum, PlannerInfo, Progress, Results, RunRecord, RunStatus, SceneResult, SceneSet};
 use crate::testing;
 
 /// A run of 100 evaluations and 1 ms with a valid path of `length`, or none when that is infinite.
 pub fn run(scene: &str, planner: &str, repeat: u32, length: f64) -> RunRecord {
     let valid = length.is_finite();
     RunRecord {
-        scene: scene.into(),
-        planner: planner.into(),
-        repeat,
-        seed: 0,
         status: if valid { RunStatus::Solved } else { RunStatus::NotFound },
         valid,
         length: valid.then_some(length),
-        gap: None,
-        clearance_min: None,
-        turning: None,
         iterations: 10,
         evaluations: 100,
         collision_checks: 1000,
         time_us: 1000.0,
         cpu_us: 1000.0,
-        error: None,
         cost: valid.then_some(length),
-        terms: Vec::new(),
-        path: Vec::new(),
-        progress: Vec::new(),
+        ..RunRecord::empty(scene, planner, repeat, 0)
     }
 }
 
@@ -37,10 +27,11 @@ pub fn progress<const N: usize>(points: [(u64, f64, f64); N]) -> Vec<Progress> {
 
 /// Results of these runs; scenes with their optimal lengths.
 pub fn results(planners: &[&str], scenes: &[(&str, Option<f64>)], runs: Vec<RunRecord>) -> Results {
-    let planner = |p: &&str| PlannerInfo { label: (*p).into(), kind: "fake".into(), settings: String::new() };
+    let planner = |p: &&str| PlannerInfo::plain(p, "fake", "");
     let scene = |(name, length): &(&str, Option<f64>)| SceneResult {
         scene: testing::scene(name),
         optimum: Optimum { length: *length, path: Vec::new(), reason: None },
+        set: SceneSet::Test,
     };
     Results {
         name: "by hand".into(),

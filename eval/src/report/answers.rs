@@ -8,6 +8,7 @@ use super::language::Strings;
 use super::{phrases, planned};
 use crate::analysis::fixed_budget::fixed_budget;
 use crate::analysis::sentences::{Sentence, against_best, validity};
+use crate::analysis::targets::SHOWN;
 use crate::analysis::{Effort, Measure};
 use crate::format;
 use crate::statistics::{median, wilson};
@@ -40,7 +41,8 @@ impl Answer {
 
     fn detail(&self, key: &str, t: &Strings) -> String {
         let shown = |v: f64| phrases::value(self.measure, v);
-        let interval = self.figure.1.map(|[low, high]| format!(" [{}, {}]", shown(low), shown(high)));
+        let ends = self.figure.1.map(|ends| ends.map(shown)).filter(|[low, high]| low != high);
+        let interval = ends.map(|[low, high]| format!(" [{low}, {high}]"));
         t.fill(key, &[("value", &(shown(self.figure.0) + &interval.unwrap_or_default()))])
     }
 }
@@ -78,7 +80,7 @@ pub fn best(evidence: &Evidence<'_>, scenes: &[usize]) -> Option<Answer> {
     least(candidates, evidence.quality.measure)
 }
 
-/// Who has the best paths after `time_us`.
+/// Who has the best paths after `time_us`; nobody whose gap is beyond the easiest target.
 pub fn within(evidence: &Evidence<'_>, scenes: &[usize], time_us: f64) -> Option<Answer> {
     let known: Vec<usize> = scenes.iter().copied().filter(|s| evidence.curves.scenes().contains(s)).collect();
     let bands = |p: usize, scene| fixed_budget(&evidence.curves, p, scene, Effort::Time, &[time_us]);
@@ -91,7 +93,8 @@ pub fn within(evidence: &Evidence<'_>, scenes: &[usize], time_us: f64) -> Option
             known.iter().filter_map(|s| bands(p, Some(*s)).first().copied()).map(|b| b.median).collect();
         Some((p, median(&medians)?, None))
     };
-    least(eligible(evidence, scenes).into_iter().filter_map(figure).collect(), Measure::Gap)
+    let usable = |c: &(usize, f64, Option<[f64; 2]>)| c.1 <= SHOWN[0];
+    least(eligible(evidence, scenes).into_iter().filter_map(figure).filter(usable).collect(), Measure::Gap)
 }
 
 /// Who is fastest of those that are near enough to the optimum, or without gaps of those that are mostly valid.

@@ -66,7 +66,7 @@ pub fn figure(chart: &Chart<'_>, lines: &[Line<'_>], table: Value) -> Option<Val
     svg += &chart::y_grid(&y, y_number);
     let _ = write!(
         svg,
-        r#"<text class="axis" x="4" y="18">{}</text><text class="axis end" x="{}" y="{:.0}">{}</text>"#,
+        r#"<text class="axis" x="4" y="24">{}</text><text class="axis end" x="{}" y="{:.0}">{}</text>"#,
         escape(y_name),
         chart::RIGHT,
         HEIGHT - 10.0,

@@ -1,8 +1,8 @@
 //! What each planner minimised itself, beside the length that all are judged by.
 
-use minijinja::{Value, context};
+use minijinja::Value;
 
-use super::data_table::{planner_row, table, words};
+use super::data_table::{number, planner_row, table, words};
 use super::evidence::Evidence;
 use super::language::Strings;
 use crate::format;
@@ -33,7 +33,7 @@ pub fn figure(evidence: &Evidence<'_>, t: &Strings) -> Option<Value> {
         let terms = terms.collect::<Vec<_>>().join(" · ");
         let infinite = |v: Option<f64>| v.unwrap_or(f64::INFINITY);
         let length = typical(p, &|r| if r.valid { infinite(r.length) } else { f64::INFINITY });
-        let number = |v: f64| context! { shown => format::length(v), key => format::sort_key(v), kind => "num" };
+        let number = |v: f64| number(format::length(v), v);
         let terms = words(if terms.is_empty() { format::NONE.to_owned() } else { terms });
         planner_row(evidence.label(p), p, vec![number(length), number(typical(p, &|r| infinite(r.cost))), terms])
     });

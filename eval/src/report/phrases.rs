@@ -86,3 +86,34 @@ fn weight(pairs: usize, over: Over, t: &Strings) -> String {
     };
     t.fill(key, &[("n", &format::count(pairs as f64))])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::pairs::Pairs;
+    use crate::analysis::sentences::{against_best, validity};
+    use crate::report::Language;
+    use crate::report::tests::results;
+
+    #[test]
+    fn english_is_what_the_analysis_says() {
+        // Gaps that differ, are equal, and fail; several scenes and one.
+        for (scenes, repeats) in [(&["one"][..], 12), (&["one", "two", "three", "four", "five", "six", "seven"][..], 3)]
+        {
+            let mut results = results(&["a", "b", "c"], scenes, repeats);
+            for (k, r) in results.runs.iter_mut().enumerate() {
+                r.time_us += k as f64;
+            }
+            let evidence = Evidence::new(&results);
+            let names = ["a", "b", "c"];
+            let t = Strings::new(Language::English);
+            let measures = [Measure::Gap, Measure::Length, Measure::Time].map(|m| Pairs::new(&evidence.grid, m));
+            let compared = measures.iter().flat_map(|pairs| against_best(&evidence.grid, pairs));
+            let sentences: Vec<Sentence> = validity(&evidence.grid).into_iter().chain(compared).collect();
+            assert!(sentences.len() >= 6);
+            for sentence in sentences {
+                assert_eq!(phrase(&sentence, &evidence, &t), sentence.english(&names));
+            }
+        }
+    }
+}

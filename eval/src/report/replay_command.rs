@@ -31,11 +31,12 @@ pub fn command(planner: &PlannerInfo, scene_file: &str, seed: u64) -> String {
 fn settings(planner: &PlannerInfo) -> Option<Table> {
     let wanted: Table = toml::from_str(&planner.settings).ok()?;
     let made = |settings: &Table| config::single("", &planner.kind, &settings.to_string()).ok().map(|e| e.settings);
+    let whole = made(&wanted)?;
     let defaults = made(&Table::new()).unwrap_or_default();
     let changed = wanted.iter().filter(|(key, value)| defaults.get(*key) != Some(*value));
     let changed: Table = changed.map(|(key, value)| (key.clone(), value.clone())).collect();
     // A default that follows from other settings would slip in: then everything is said.
-    [changed, wanted.clone()].into_iter().find(|settings| made(settings).as_ref() == Some(&wanted))
+    [changed, wanted.clone()].into_iter().find(|settings| made(settings).as_ref() == Some(&whole))
 }
 
 /// A value as `--set` reads it: TOML, and texts bare where they cannot be taken for anything else.

@@ -13,7 +13,7 @@ use crate::statistics::wilson;
 
 /// A cell: what is shown, what sorting reads, whether it is the best of its column.
 fn cell(shown: String, key: f64, best: bool) -> Value {
-    context! { shown, key => format::sort_key(key), best }
+    context! { shown, key => format::sort_key(key), best, small => "" }
 }
 
 /// The comparison table of one scene, or (`None`) of all test scenes; `unit` is empty when scenes differ in it.
@@ -107,7 +107,7 @@ fn figures(evidence: &Evidence<'_>, planner: usize, scene: Option<&str>, summary
 fn estimate((value, ends): Estimate, shown: &dyn Fn(f64) -> String, best: bool) -> Value {
     let [low, high] = ends.unwrap_or([value, value]).map(shown);
     // Deterministic planners have no interval worth a line.
-    let small = (low != high).then(|| format!("[{low}, {high}]"));
+    let small = if low == high { String::new() } else { format!("[{low}, {high}]") };
     context! { shown => shown(value), key => format::sort_key(value), best, small }
 }
 
