@@ -114,7 +114,7 @@ impl<'a> Evidence<'a> {
             (_, None) => end(r),
         };
         let positive = |v: &f64| *v > 0.0 && v.is_finite();
-        let low = every().map(first).filter(positive).fold(f64::INFINITY, f64::min);
+        let low = every().flat_map(|r| [first(r), end(r)]).filter(positive).fold(f64::INFINITY, f64::min);
         let high = every().map(end).filter(positive).fold(0.0, f64::max);
         (low <= high).then_some([low, high])
     }
