@@ -1,7 +1,7 @@
 //! From a campaign's results to figures ready to print.
 //!
-//! Everything but [`summarise`] starts from a [`Grid`], the runs sorted once by planner and scene, and covers
-//! the scenes that count: tuning scenes are left out. Planners and scenes are named by their position in the grid.
+//! Everything but [`summarise`] starts from a [`Grid`], the runs of the test scenes sorted once by planner and scene:
+//! tuning scenes are no evidence. Planners and scenes are named by their position in the grid.
 
 mod blocks;
 mod curves;

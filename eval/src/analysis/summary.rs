@@ -58,3 +58,20 @@ pub fn summarise(results: &Results, planner: &str, scene: Option<&str>) -> Optio
         evaluations_median: median(&of(&|r| r.evaluations as f64))?,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{results, run};
+    use super::*;
+
+    #[test]
+    fn tuning_scenes_stand_alone() {
+        let runs = vec![run("s", "a", 0, 11.0), run("t", "a", 0, f64::INFINITY)];
+        let mut results = results(&["a"], &[("s", Some(10.0)), ("t", None)], runs);
+        results.scenes[1].set = SceneSet::Tuning;
+        let all = summarise(&results, "a", None).unwrap();
+        assert_eq!((all.runs, all.length_median), (1, 11.0));
+        let tuning = summarise(&results, "a", Some("t")).unwrap();
+        assert_eq!((tuning.runs, tuning.length_median, tuning.gap_median), (1, f64::INFINITY, None));
+    }
+}

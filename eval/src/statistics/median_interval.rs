@@ -48,9 +48,10 @@ pub struct MedianInterval {
 /// The interval of the median of what `values` were drawn from; `None` for fewer than six values.
 pub fn median_interval(values: &[f64]) -> Option<MedianInterval> {
     let MedianRanks { low, high, coverage } = median_ranks(values.len())?;
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    Some(MedianInterval { low: sorted[low - 1], high: sorted[high - 1], coverage })
+    let mut values = values.to_vec();
+    let (_, &mut lower, above) = values.select_nth_unstable_by(low - 1, f64::total_cmp);
+    let (_, &mut upper, _) = above.select_nth_unstable_by(high - low - 1, f64::total_cmp);
+    Some(MedianInterval { low: lower, high: upper, coverage })
 }
 
 #[cfg(test)]

@@ -4,14 +4,16 @@
 /// statistics (Hyndman & Fan 1996, type 7). Infinite values take part; between a
 /// finite value and +∞ the answer is +∞. `None` for no values.
 pub fn quantile(values: &[f64], q: f64) -> Option<f64> {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let last = sorted.len().checked_sub(1)?;
+    let mut values = values.to_vec();
+    let last = values.len().checked_sub(1)?;
     let at = q * last as f64;
     let (below, share) = (at.floor() as usize, at.fract());
-    let low = sorted[below];
-    Some(if share == 0.0 { low } else { low + share * (sorted[below + 1] - low) })
-        .map(|v| if v.is_nan() { f64::INFINITY } else { v })
+    let (_, low, above) = values.select_nth_unstable_by(below, f64::total_cmp);
+    let value = match above.iter().copied().min_by(f64::total_cmp) {
+        Some(next) if share != 0.0 => *low + share * (next - *low),
+        _ => *low,
+    };
+    Some(if value.is_nan() { f64::INFINITY } else { value })
 }
 
 /// The median of `values`.
