@@ -249,6 +249,33 @@ fn pitch(i: u32, random: &mut Random) -> Scene {
     Scene { obstacles, ..scene }
 }
 
+/// Everything that can go wrong, on two machines, with variants, a tuning scene and isolation.
+fn troubled(mut results: Results) -> Results {
+    let statuses = [RunStatus::Error, RunStatus::Crashed, RunStatus::Timeout, RunStatus::OutOfMemory];
+    let failing = results.runs.iter_mut().filter(|r| r.planner == "random-search" && r.repeat % 3 == 0);
+    for (k, run) in failing.enumerate() {
+        run.status = statuses[k % statuses.len()];
+        (run.valid, run.gap, run.length, run.cost) = (false, None, None, None);
+        run.error = Some(format!("process ended: {}, with a message as long as <they> get", run.status.name()));
+        run.path.clear();
+        run.progress.clear();
+    }
+    results.runs.retain(|r| !(r.planner == "tangent" && r.repeat > 5));
+    for run in &mut results.runs {
+        run.overhead_us = Some(180.0 + 900.0 * f64::from(run.repeat % 7 == 0));
+        run.terms = vec![("length".to_owned(), 3.25), ("risk".to_owned(), 0.5)];
+    }
+    results.scenes[1].set = SceneSet::Tuning;
+    for (planner, ms) in results.planners.iter_mut().filter(|p| p.label.starts_with("pso")).zip([1.0, 10.0]) {
+        (planner.group, planner.varied) = ("pso".to_owned(), format!("velocity_limit=0.5, {ms} ms"));
+        planner.budget.time_ms = Some(ms);
+    }
+    let part = |shard: &str| Manifest { shard: shard.to_owned(), ..results.manifest.clone() };
+    results.manifest.shards = vec![part("1/2"), part("2/2")];
+    (results.manifest.isolated, results.manifest.resumed) = (true, 3);
+    results
+}
+
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let folder = std::env::args().nth(1).unwrap_or_else(|| "report-demo".to_owned());
     let folder = Path::new(&folder);
@@ -267,7 +294,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         true,
         30,
     )?;
+    let troubled = troubled(campaign("troubled", (0..4).map(|i| pitch(i, &mut random)).collect(), true, 20)?);
     for (file, page) in [
+        ("troubled.html", html(&troubled, Language::English)),
+        ("troubled-zh.html", html(&troubled, Language::Chinese)),
         ("paper.html", html(&one, Language::English)),
         ("paper-zh.html", html(&one, Language::Chinese)),
         ("walls.html", html(&several, Language::English)),

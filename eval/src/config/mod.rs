@@ -163,22 +163,27 @@ impl Comparison {
         out
     }
 
-    /// Where [`Comparison::to_toml`] expects each scene, relative to itself: names made
-    /// safe for every file system, and unique even where case does not count.
+    /// Where [`Comparison::to_toml`] expects each scene, relative to itself.
     pub fn scene_files(&self) -> Vec<String> {
-        let mut taken: BTreeMap<String, u32> = BTreeMap::new();
-        let files = self.scenes.iter().map(|SceneEntry { scene, .. }| {
-            let safe = |c: char| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' };
-            let mut stem: String = scene.name.chars().take(80).map(safe).collect();
-            if stem.starts_with('.') {
-                stem.insert(0, '_'); // no hidden files
-            }
-            let count = taken.entry(stem.to_lowercase()).and_modify(|n| *n += 1).or_insert(1);
-            // "~" is no safe character, so numbered names never meet others.
-            if *count > 1 { format!("scenes/{stem}~{count}.toml") } else { format!("scenes/{stem}.toml") }
-        });
-        files.collect()
+        scene_files(self.scenes.iter().map(|entry| entry.scene.name.as_str()))
     }
+}
+
+/// Files of the scenes of these names beside a resolved comparison: names made safe for every file system, and
+/// unique even where case does not count.
+pub fn scene_files<'n>(names: impl Iterator<Item = &'n str>) -> Vec<String> {
+    let mut taken: BTreeMap<String, u32> = BTreeMap::new();
+    let files = names.map(|name| {
+        let safe = |c: char| if c.is_alphanumeric() || "-_.".contains(c) { c } else { '_' };
+        let mut stem: String = name.chars().take(80).map(safe).collect();
+        if stem.starts_with('.') {
+            stem.insert(0, '_'); // no hidden files
+        }
+        let count = taken.entry(stem.to_lowercase()).and_modify(|n| *n += 1).or_insert(1);
+        // "~" is no safe character, so numbered names never meet others.
+        if *count > 1 { format!("scenes/{stem}~{count}.toml") } else { format!("scenes/{stem}.toml") }
+    });
+    files.collect()
 }
 
 fn from_table<'i, T: Deserialize<'i>>(source: &Source<'_>, table: Spanned<DeTable<'i>>) -> Result<T, FileError> {

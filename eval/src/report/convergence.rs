@@ -145,7 +145,7 @@ pub fn figure(id: &str, series: &[Series<'_>], optimum: Option<f64>, unit: &str,
     svg += &chart::y_grid(&y, &number);
     let _ = write!(
         svg,
-        r#"<text class="axis" x="{}" y="18">{}</text><text class="axis end" x="{}" y="{:.0}">{}</text>"#,
+        r#"<text class="axis" x="{}" y="24">{}</text><text class="axis end" x="{}" y="{:.0}">{}</text>"#,
         4,
         escape(&y_name),
         chart::RIGHT,

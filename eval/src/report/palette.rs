@@ -91,13 +91,18 @@ pub fn marker(i: usize, x: f64, y: f64) -> String {
     format!(r#"<path class="fill mark c{}" transform="translate({x:.1} {y:.1}) scale(5)" d="{shape}"/>"#, i % SERIES)
 }
 
-/// A legend key: line and marker of series `i`.
+/// A legend key: line and marker of series `i`, by reference to one of [`keys`].
 pub fn swatch(i: usize) -> String {
-    format!(
-        r#"<svg class="swatch" viewBox="0 0 36 14" aria-hidden="true"><path class="{}" d="M1 7H35"/>{}</svg>"#,
-        line(i),
-        marker(i, 18.0, 7.0)
-    )
+    format!(r##"<svg class="swatch" viewBox="0 0 36 14" aria-hidden="true"><use href="#key{i}"/></svg>"##)
+}
+
+/// The keys of the first `n` series, once in the page: tables have them by the thousand.
+pub fn keys(n: usize) -> String {
+    let mut out = String::from(r#"<svg class="defs keys" width="0" height="0" aria-hidden="true"><defs>"#);
+    for i in 0..n {
+        let _ = write!(out, r#"<g id="key{i}"><path class="{}" d="M1 7H35"/>{}</g>"#, line(i), marker(i, 18.0, 7.0));
+    }
+    out + "</defs></svg>"
 }
 
 #[cfg(test)]

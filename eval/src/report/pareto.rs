@@ -55,7 +55,7 @@ pub fn figure(id: &str, series: &[Series<'_>], t: &Strings) -> Option<Value> {
     svg += &chart::y_grid(&y, &number);
     let _ = write!(
         svg,
-        r#"<text class="axis" x="4" y="18">{}</text><text class="axis end" x="{}" y="{:.0}">{}</text>"#,
+        r#"<text class="axis" x="4" y="24">{}</text><text class="axis end" x="{}" y="{:.0}">{}</text>"#,
         escape(t.get("pareto_risk")),
         chart::RIGHT,
         HEIGHT - 10.0,

@@ -109,11 +109,7 @@ fn best(stage: &Stage<'_>, label: &str, index: usize, runs: &[&RunRecord], id: &
         }
         text
     } else if let Some(run) = least_bad() {
-        lines += &format!(r#"<path class="line invalid best" d="{}"/>"#, polyline(&stage.camera, &run.path));
-        let finite = run.path.iter().all(|p| p.x.is_finite() && p.y.is_finite());
-        if let Some(violation) = stage.world.filter(|_| finite).and_then(|w| w.first_violation(&run.path)) {
-            lines += &cross_mark(&stage.camera, violation.at);
-        }
+        lines += &invalid(stage, run);
         let depth = run.clearance_min.map_or(format::NONE.to_owned(), |c| format::significant((-c).max(0.0), 3));
         t.fill(
             if only { "best_none_only" } else { "best_none" },
@@ -124,6 +120,36 @@ fn best(stage: &Stage<'_>, label: &str, index: usize, runs: &[&RunRecord], id: &
     };
     let title = t.fill("best_title", &[("planner", label)]);
     (figure(stage, id, &title, &text, &lines, true, t), text)
+}
+
+/// The path of a run that is not valid, and a cross where it first collides.
+fn invalid(stage: &Stage<'_>, run: &RunRecord) -> String {
+    let mut lines = format!(r#"<path class="line invalid best" d="{}"/>"#, polyline(&stage.camera, &run.path));
+    let finite = run.path.iter().all(|p| p.x.is_finite() && p.y.is_finite());
+    if let Some(violation) = stage.world.filter(|_| finite).and_then(|w| w.first_violation(&run.path)) {
+        lines += &cross_mark(&stage.camera, violation.at);
+    }
+    lines
+}
+
+/// A small picture of one run, without words; `text` says what it shows.
+pub fn one_run(
+    stage: &Stage<'_>,
+    index: usize,
+    run: &RunRecord,
+    id: &str,
+    title: &str,
+    text: &str,
+    t: &Strings,
+) -> String {
+    let mut lines = optimum(stage);
+    if drawable(run) && run.valid {
+        let colour = palette::colour(index);
+        lines += &format!(r#"<path class="line {colour} best" d="{}"/>"#, polyline(&stage.camera, &run.path));
+    } else if drawable(run) {
+        lines += &invalid(stage, run);
+    }
+    figure(stage, id, title, text, &lines, false, t)
 }
 
 /// All runs: valid ones in the planner's colour, the others dashed below them.

@@ -6,20 +6,21 @@ use minijinja::{Value, context};
 use super::backdrop::{backdrop, obstacles};
 use super::camera::Camera;
 use super::convergence::{self, Series};
+use super::evidence::Evidence;
 use super::language::Strings;
 use super::planner_card::{Stage, card, miniature, reference};
 use super::strip::{self, Row};
 use super::{fitness, pareto, tables};
 use crate::analysis::counted_length;
 use crate::format;
-use crate::results::{Results, RunRecord, SceneResult};
+use crate::results::{Results, RunRecord, SceneResult, SceneSet};
 use crate::snapshot::Snapshot;
 
 /// Runs drawn into one full picture; the page stays within some megabytes.
 const DRAWN: usize = 250;
 /// Runs drawn into one miniature.
 pub const DRAWN_SMALL: usize = 60;
-/// Beyond this many obstacles pictures share one copy of them.
+/// Beyond this many obstacles in all pictures together these share one copy of them.
 const SHARED: usize = 150;
 /// Gaps below this are drawn on the edge of a logarithmic axis.
 const GAP_FLOOR: f64 = 1e-8;
@@ -36,13 +37,14 @@ pub enum Extent {
 }
 
 /// The section of scene `index`.
-pub fn section(results: &Results, index: usize, extent: Extent, t: &Strings) -> Value {
+pub fn section(evidence: &Evidence<'_>, index: usize, extent: Extent, t: &Strings) -> Value {
+    let results = evidence.results;
     let scene = &results.scenes[index];
     let name = scene.scene.name.as_str();
     let by_planner: Vec<Vec<&RunRecord>> =
         results.planners.iter().map(|p| results.runs_of(&p.label, Some(name)).collect()).collect();
     let with_runs = || results.planners.iter().enumerate().zip(&by_planner).filter(|(_, runs)| !runs.is_empty());
-    let shared = scene.scene.obstacles.len() > SHARED;
+    let shared = scene.scene.obstacles.len() * results.planners.len() > SHARED;
     let paths = by_planner.iter().flatten().map(|r| r.path.as_slice());
     let camera = Camera::new(&scene.scene, paths.chain([scene.optimum.path.as_slice()]));
     let own = |id: &str, words: bool| backdrop(&scene.scene, &camera, t, id, words);
@@ -98,13 +100,14 @@ pub fn section(results: &Results, index: usize, extent: Extent, t: &Strings) -> 
     }
     let one = results.scenes.len() == 1;
     context! {
-        name, anchor => format!("scene-{index}"), facts => facts(scene, t),
+        name, anchor => super::scene_anchor(index), facts => facts(scene, t),
         optimum => optimum(scene, t), only => one, ring => scene.scene.robot_radius > 0.0,
         known => !scene.optimum.path.is_empty(),
-        table => if one { Value::from(()) } else { tables::comparison(results, Some(name), &scene.scene.unit, t) },
+        table => if one { Value::from(()) } else { tables::comparison(evidence, Some(name), &scene.scene.unit, t) },
         copies => Value::from_safe_string(copies),
         cards, miniatures, convergence => charts.0, no_convergence, pareto => own.0, fitness => own.1, spread => charts.1, times => charts.2,
         more => by_planner.iter().any(|r| r.len() > DRAWN_SMALL), small_drawn => DRAWN_SMALL,
+        tuning => scene.set == SceneSet::Tuning,
         full => extent == Extent::Full, runs => by_planner.iter().map(Vec::len).sum::<usize>(),
     }
 }
@@ -174,9 +177,11 @@ pub fn spread(results: &Results, scenes: &[&SceneResult], id: &str, t: &Strings)
     strip::figure(&rows, &strip::Kind { id, title, axis: &axis, text: &text, number, floor: GAP_FLOOR }, t)
 }
 
-/// How wall times spread, over one scene or all; every run counts, failed or not.
+/// How wall times spread, over one scene or all test scenes; every run counts, failed or not.
 pub fn times(results: &Results, scene: Option<&str>, id: &str, t: &Strings) -> Option<Value> {
-    let rows = rows(results, |r| scene.is_none_or(|s| r.scene == s), &|r| r.time_us);
+    let tuning = |name: &str| results.scenes.iter().any(|s| s.set == SceneSet::Tuning && s.scene.name == name);
+    let wanted = |r: &RunRecord| scene.map_or_else(|| !tuning(&r.scene), |s| r.scene == s);
+    let rows = rows(results, wanted, &|r| r.time_us);
     let runs = rows.iter().map(|r| r.values.len()).max().unwrap_or(0);
     let text = t.plural(runs, "time_text_one", "time_text");
     let (title, axis) = (t.get("time_title"), t.get("time_axis"));

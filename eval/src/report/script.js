@@ -11,7 +11,9 @@
   // A link to a scene in a closed box opens the box.
   const reveal = () => {
     const target = document.getElementById(decodeURIComponent(location.hash.slice(1)));
-    if (target && target.tagName === "DETAILS") target.open = true;
+    for (let box = target; box; box = box.parentElement) {
+      if (box.tagName === "DETAILS" && !box.classList.contains("menu")) box.open = true;
+    }
     document.querySelectorAll("details.menu").forEach((menu) => { menu.open = false; });
   };
   addEventListener("hashchange", reveal);
@@ -58,6 +60,46 @@
     button.textContent = document.body.dataset.save;
     button.addEventListener("click", () => save(svg));
     svg.parentNode.append(button);
+  });
+
+  document.querySelectorAll(".command .copy").forEach((button) => {
+    const words = button.textContent;
+    button.hidden = false;
+    button.addEventListener("click", async () => {
+      const code = button.previousElementSibling;
+      getSelection().selectAllChildren(code);
+      // Pages from files have no clipboard in some browsers: what is selected is copied instead.
+      try { await navigator.clipboard.writeText(code.textContent); } catch { document.execCommand("copy"); }
+      button.textContent = document.body.dataset.copied;
+      setTimeout(() => { button.textContent = words; }, 2000);
+    });
+  });
+
+  // Rows by their first cell or any text, columns by their head, and only what has failures.
+  document.querySelectorAll(".filters").forEach((filters) => {
+    const table = document.getElementById(filters.dataset.for);
+    const field = (name) => filters.querySelector(`[data-filter=${name}]`);
+    const text = (name) => (field(name) ? field(name).value.trim().toLowerCase() : "");
+    const heads = [...table.tHead.rows[0].cells];
+    const rows = [...table.tBodies[0].rows];
+    const status = filters.querySelector(".matches");
+    filters.hidden = false;
+    const apply = () => {
+      const [any, first, column] = [text("text"), text("row"), text("column")];
+      const failures = field("failures") && field("failures").checked;
+      const named = heads.map((head, i) => i < 2 || head.textContent.toLowerCase().includes(column));
+      const failing = (row, i) => row.cells[i].classList.contains("failing");
+      const shown = rows.filter((row) => row.textContent.toLowerCase().includes(any)
+        && row.cells[0].textContent.toLowerCase().includes(first)
+        && (!failures || [...row.cells].some((_, i) => named[i] && failing(row, i))));
+      const kept = field("column")
+        ? named.map((name, i) => name && (i < 2 || !failures || shown.some((row) => failing(row, i)))) : null;
+      rows.forEach((row) => { row.hidden = !shown.includes(row); });
+      if (kept) [table.tHead.rows[0], ...rows].forEach((row) => [...row.cells].forEach((cell, i) => { cell.hidden = !kept[i]; }));
+      if (status) status.textContent = `${document.body.dataset.matches} ${shown.length}/${rows.length}`;
+    };
+    filters.addEventListener("input", apply);
+    apply();
   });
 
   document.querySelectorAll("table.sortable").forEach((table) => {

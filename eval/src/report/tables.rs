@@ -2,38 +2,46 @@
 
 use minijinja::{Value, context};
 
+use super::evidence::Evidence;
 use super::language::Strings;
 use super::palette;
-use crate::analysis::{Summary, summarise};
+use crate::analysis::{Measure, Summary, counted_length, summarise};
 use crate::format;
-use crate::results::{Results, RunRecord};
+use crate::results::{Results, RunRecord, SceneSet};
+use crate::statistics::median_interval::median_interval;
 use crate::statistics::wilson;
 
 /// A cell: what is shown, what sorting reads, whether it is the best of its column.
 fn cell(shown: String, key: f64, best: bool) -> Value {
-    context! { shown, key => format::sort_key(key), best }
+    context! { shown, key => format::sort_key(key), best, small => "" }
 }
 
-/// The comparison table of one scene, or (`None`) of all; `unit` is empty when scenes differ in it.
-pub fn comparison(results: &Results, scene: Option<&str>, unit: &str, t: &Strings) -> Value {
-    let rows: Vec<(usize, Summary)> = results
+/// The comparison table of one scene, or (`None`) of all test scenes; `unit` is empty when scenes differ in it.
+pub fn comparison(evidence: &Evidence<'_>, scene: Option<&str>, unit: &str, t: &Strings) -> Value {
+    let results = evidence.results;
+    let rows: Vec<(usize, Summary, Figures)> = results
         .planners
         .iter()
         .enumerate()
-        .filter_map(|(i, p)| summarise(results, &p.label, scene).map(|s| (i, s)))
+        .filter_map(|(i, p)| {
+            let summary = summarise(results, &p.label, scene)?;
+            let figures = figures(evidence, i, scene, &summary);
+            Some((i, summary, figures))
+        })
         .collect();
-    let least = |f: &dyn Fn(&Summary) -> f64| {
-        rows.iter().map(|(_, s)| f(s)).filter(|v| v.is_finite()).fold(f64::INFINITY, f64::min)
+    let least = |f: &dyn Fn(&Summary, &Figures) -> f64| {
+        rows.iter().map(|(_, s, m)| f(s, m)).filter(|v| v.is_finite()).fold(f64::INFINITY, f64::min)
     };
     // Being fast at failing is no merit: times compete among planners that mostly succeed.
-    let judged_time = |s: &Summary| if s.length_median.is_finite() { s.time_us_median } else { f64::INFINITY };
-    let gap = |s: &Summary| s.gap_median.unwrap_or(f64::INFINITY);
-    let (best_gap, best_length, best_time) = (least(&gap), least(&|s| s.length_median), least(&judged_time));
+    let judged_time = |s: &Summary, m: &Figures| if s.length_median.is_finite() { m.time.0 } else { f64::INFINITY };
+    let gap = |m: &Figures| m.gap.map_or(f64::INFINITY, |g| g.0);
+    let best_gap = least(&|_, m| gap(m));
+    let (best_length, best_time) = (least(&|s, _| s.length_median), least(&judged_time));
     // Equal to as many digits as the table shows is equal.
     let ties = |v: f64, best: f64| v.is_finite() && v <= best + 1e-9 * best.abs();
     let body: Vec<Value> = rows
         .iter()
-        .map(|(i, s)| {
+        .map(|(i, s, m)| {
             let share = s.valid as f64 / s.runs.max(1) as f64;
             let (low, high) = wilson(s.valid, s.runs);
             let [q1, q3] = s.length_quartiles;
@@ -44,21 +52,63 @@ pub fn comparison(results: &Results, scene: Option<&str>, unit: &str, t: &String
                 valid => cell(format!("{}/{}", s.valid, s.runs), share, false),
                 percent => format!("{:.1}", 100.0 * share),
                 interval => format::share_interval(low, high),
-                length => cell(format::length(s.length_median), s.length_median, ties(s.length_median, best_length)),
-                gap => cell(
-                    s.gap_median.map_or(format::NONE.to_owned(), format::percent), gap(s), ties(gap(s), best_gap)),
+                length => estimate((s.length_median, m.length), &format::length, ties(s.length_median, best_length)),
+                gap => m.gap.map_or_else(
+                    || cell(format::NONE.to_owned(), f64::INFINITY, false),
+                    |g| estimate(g, &format::percent, ties(g.0, best_gap))),
                 range => cell(range, if q1.is_finite() { q3 - q1 } else { f64::INFINITY }, false),
-                time => cell(format::time(s.time_us_median), s.time_us_median, ties(judged_time(s), best_time)),
+                time => estimate(m.time, &format::time, ties(judged_time(s, m), best_time)),
                 evaluations => cell(format::count(s.evaluations_median), s.evaluations_median, false),
             }
         })
         .collect();
-    let note_failures = rows.iter().any(|(_, s)| s.valid < s.runs);
-    let note_gap = rows.iter().any(|(_, s)| s.gap_median.is_none());
+    let note_failures = rows.iter().any(|(_, s, _)| s.valid < s.runs);
+    let note_gap = rows.iter().any(|(_, _, m)| m.gap.is_none());
     context! {
-        rows => body, note_failures, note_gap,
+        rows => body, note_failures, note_gap, several => scene.is_none(),
         length_head => with_unit(t.get("head_length"), unit), range_head => with_unit(t.get("head_range"), unit),
     }
+}
+
+/// A median and the ends of its interval.
+type Estimate = (f64, Option<[f64; 2]>);
+
+/// A planner's medians: over runs in one scene, over scenes of their medians in all.
+struct Figures {
+    gap: Option<Estimate>,
+    time: Estimate,
+    length: Option<[f64; 2]>,
+}
+
+fn figures(evidence: &Evidence<'_>, planner: usize, scene: Option<&str>, summary: &Summary) -> Figures {
+    let Some(scene) = scene else {
+        let scenes = evidence.scenes();
+        let by_gap = evidence.quality.measure == Measure::Gap;
+        let gap = evidence.quality_of(planner, &scenes).filter(|_| by_gap);
+        let time = evidence.time_of(planner, &scenes);
+        return Figures {
+            gap: gap.map(|g| (g.median, g.ends())),
+            time: time.map_or((summary.time_us_median, None), |time| (time.median, time.ends())),
+            length: None,
+        };
+    };
+    let runs: Vec<&RunRecord> = evidence.results.runs_of(&summary.planner, Some(scene)).collect();
+    let ends = |value: &dyn Fn(&RunRecord) -> f64| {
+        let values: Vec<f64> = runs.iter().map(|r| value(r)).collect();
+        median_interval(&values).map(|i| [i.low, i.high])
+    };
+    Figures {
+        gap: summary.gap_median.map(|gap| (gap, ends(&|r| r.gap.unwrap_or(f64::INFINITY)))),
+        time: (summary.time_us_median, ends(&|r| r.time_us)),
+        length: ends(&counted_length),
+    }
+}
+
+fn estimate((value, ends): Estimate, shown: &dyn Fn(f64) -> String, best: bool) -> Value {
+    let [low, high] = ends.unwrap_or([value, value]).map(shown);
+    // Deterministic planners have no interval worth a line.
+    let small = if low == high { String::new() } else { format!("[{low}, {high}]") };
+    context! { shown => shown(value), key => format::sort_key(value), best, small }
 }
 
 /// "median length (cm)"; without unit just the words.
@@ -78,15 +128,18 @@ pub fn matrix(results: &Results) -> Value {
                 .planners
                 .iter()
                 .map(|p| match summarise(results, &p.label, Some(name)) {
-                    None => context! { valid => format::NONE, value => "", full => false, none => false },
+                    None => context! { valid => format::NONE, value => "", full => false, none => false, failed => true, key => "Infinity" },
                     Some(sum) => context! {
+                        failed => sum.valid < results.repeats as usize,
+                        key => format::sort_key(sum.gap_median.unwrap_or(sum.length_median)),
                         valid => format!("{}/{}", sum.valid, sum.runs),
                         value => sum.gap_median.map_or_else(|| format::length(sum.length_median), format::percent),
                         full => sum.valid == sum.runs, none => sum.valid == 0,
                     },
                 })
                 .collect();
-            context! { name, anchor => format!("scene-{i}"), optimum => optimum(s.optimum.length), cells }
+            context! { name, anchor => super::scene_anchor(i), optimum => optimum(s.optimum.length), cells, tuning => s.set == SceneSet::Tuning,
+                key => format::sort_key(s.optimum.length.unwrap_or(f64::INFINITY)) }
         })
         .collect();
     Value::from(rows)

@@ -1,0 +1,96 @@
+//! What is missing, for each planner and scene, and why.
+
+use minijinja::{Value, context};
+
+use super::data_table::{number, planner_row, row, table, words};
+use super::language::Strings;
+use crate::format;
+use crate::results::{Results, RunRecord, RunStatus};
+
+/// Why there is no valid path, in the order of the columns.
+const REASONS: [&str; 7] = [
+    "missing_not_run",
+    "status_error",
+    "status_crashed",
+    "status_timeout",
+    "status_out_of_memory",
+    "missing_no_path",
+    "missing_invalid",
+];
+
+/// Column of a run without a valid path.
+fn reason(run: &RunRecord) -> usize {
+    match run.status {
+        RunStatus::Error => 1,
+        RunStatus::Crashed => 2,
+        RunStatus::Timeout => 3,
+        RunStatus::OutOfMemory => 4,
+        _ if run.path.is_empty() => 5,
+        _ => 6,
+    }
+}
+
+/// What lacks of one planner in one scene.
+struct Lack {
+    planner: usize,
+    scene: usize,
+    counts: [usize; REASONS.len()],
+}
+
+/// Every planner and scene of which something is missing, sorted by planner.
+fn lacks(results: &Results) -> Vec<Lack> {
+    let mut all = Vec::new();
+    for (planner, p) in results.planners.iter().enumerate() {
+        // One pass over a planner's runs, not one for each scene.
+        let mut counts = vec![[0; REASONS.len()]; results.scenes.len()];
+        counts.iter_mut().for_each(|c| c[0] = results.repeats as usize);
+        for run in results.runs_of(&p.label, None) {
+            if let Some(scene) = results.scenes.iter().position(|s| s.scene.name == run.scene) {
+                counts[scene][0] = counts[scene][0].saturating_sub(1);
+                if !run.valid {
+                    counts[scene][reason(run)] += 1;
+                }
+            }
+        }
+        let lacking = counts.into_iter().enumerate().filter(|(_, c)| c.iter().any(|n| *n > 0));
+        all.extend(lacking.map(|(scene, counts)| Lack { planner, scene, counts }));
+    }
+    all
+}
+
+/// Both tables, by planner and by planner and scene; `None` where every run gave a valid path.
+pub fn figure(results: &Results, t: &Strings) -> Option<Value> {
+    let lacks = lacks(results);
+    if lacks.is_empty() {
+        return None;
+    }
+    let used: Vec<usize> = (0..REASONS.len()).filter(|k| lacks.iter().any(|l| l.counts[*k] > 0)).collect();
+    let count = |n: usize| number(if n == 0 { format::NONE.to_owned() } else { format::count(n as f64) }, n as f64);
+    let heads = |first: &[&'static str]| -> Vec<String> {
+        let reasons = used.iter().map(|k| t.get(REASONS[*k]).to_owned());
+        first.iter().map(|key| t.get(key).to_owned()).chain(reasons).chain([t.get("missing_of").to_owned()]).collect()
+    };
+    let by_planner = lacks.chunk_by(|a, b| a.planner == b.planner).map(|group| {
+        let p = group[0].planner;
+        let sum = |k: &usize| group.iter().map(|l| l.counts[*k]).sum::<usize>();
+        let planned = results.scenes.len() * results.repeats as usize;
+        let cells = [count(group.len())].into_iter().chain(used.iter().map(|k| count(sum(k)))).chain([count(planned)]);
+        planner_row(&results.planners[p].label, p, cells.collect())
+    });
+    let by_planner = by_planner.collect();
+    let by_scene = lacks.iter().map(|l| {
+        let cells =
+            [words(results.planners[l.planner].label.as_str()), words(results.scenes[l.scene].scene.name.as_str())];
+        let counts = used.iter().map(|k| count(l.counts[*k])).chain([count(results.repeats as usize)]);
+        row(cells.into_iter().chain(counts).collect())
+    });
+    let by_scene: Vec<Value> = by_scene.collect();
+    let as_table = |id: &str, caption: &str, heads: &[String], rows: Vec<Value>| {
+        table(id, caption, &heads.iter().map(String::as_str).collect::<Vec<_>>(), rows)
+    };
+    let scenes = results.scenes.len() > 1;
+    Some(context! {
+        planners => as_table("missing-planners", t.get("missing_title"), &heads(&["head_planner", "missing_scenes"]), by_planner),
+        scenes => scenes.then(|| as_table("missing-scenes", t.get("missing_title"), &heads(&["head_planner", "section_scene"]), by_scene)),
+    })
+}

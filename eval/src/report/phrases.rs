@@ -1,0 +1,119 @@
+//! Quotable sentences in the report's language.
+
+use super::evidence::Evidence;
+use super::language::Strings;
+use crate::analysis::pairs::Ratio;
+use crate::analysis::sentences::Sentence;
+use crate::analysis::{Measure, Over};
+use crate::format;
+
+/// The sentence with the planners' names.
+pub fn phrase(sentence: &Sentence, evidence: &Evidence<'_>, t: &Strings) -> String {
+    let name = |planner: &usize| evidence.label(*planner);
+    match sentence {
+        Sentence::Valid { planner, valid, runs, interval: (low, high) } => t.fill(
+            "phrase_valid",
+            &[
+                ("planner", name(planner)),
+                ("valid", &format::count(*valid as f64)),
+                ("runs", &format::count(*runs as f64)),
+                ("interval", &format::share_interval(*low, *high)),
+            ],
+        ),
+        Sentence::Better { measure, better, worse, ratio, medians, p, pairs, over } => {
+            let (p, evidence) = (p_value(*p), weight(*pairs, *over, t));
+            let common = [("a", name(better)), ("b", name(worse)), ("p", p.as_str()), ("evidence", evidence.as_str())];
+            match ratio {
+                Some(ratio) => {
+                    let times = times(*ratio);
+                    t.fill(&key("phrase_times", *measure), &[common.as_slice(), &[("times", &times)]].concat())
+                }
+                None => {
+                    let [x, y] = medians.map(|v| value(*measure, v));
+                    let figures = [("x", x.as_str()), ("y", y.as_str())];
+                    t.fill(&key("phrase_better", *measure), &[common.as_slice(), &figures].concat())
+                }
+            }
+        }
+        Sentence::Alike { measure, best, other, p, pairs, over } => t.fill(
+            &key("phrase_alike", *measure),
+            &[("a", name(best)), ("b", name(other)), ("p", &p_value(*p)), ("evidence", &weight(*pairs, *over, t))],
+        ),
+        Sentence::Settled { measure, best, other, medians: [x, y] } => {
+            let what = if x == y { "phrase_equal" } else { "phrase_settled" };
+            let (x, y) = (value(*measure, *x), value(*measure, *y));
+            t.fill(&key(what, *measure), &[("a", name(best)), ("b", name(other)), ("x", &x), ("y", &y)])
+        }
+    }
+}
+
+fn key(what: &str, measure: Measure) -> String {
+    let measure = match measure {
+        Measure::Gap => "gap",
+        Measure::Length => "length",
+        Measure::Time => "time",
+    };
+    format!("{what}_{measure}")
+}
+
+/// A figure of that measure.
+pub fn value(measure: Measure, value: f64) -> String {
+    match measure {
+        Measure::Gap => format::percent(value),
+        Measure::Length => format::significant(value, 4),
+        Measure::Time => format::time(value),
+    }
+}
+
+/// A ratio with its interval.
+pub fn times(ratio: Ratio) -> String {
+    // A ratio of lengths near one lives in its later digits.
+    let digits = if ratio.value < 1.1 { 4 } else { 2 };
+    let shown = |v: f64| if v >= 100.0 { format::significant(v, 3) } else { format::significant(v, digits) };
+    let interval = ratio.interval.map(|[low, high]| format!(" [{}, {}]", shown(low), shown(high)));
+    shown(ratio.value) + &interval.unwrap_or_default()
+}
+
+/// A p-value: below 0.001 only that it is.
+pub fn p_value(p: f64) -> String {
+    if p < 0.001 { "p < 0.001".to_owned() } else { format!("p = {}", format::significant(p, 2)) }
+}
+
+fn weight(pairs: usize, over: Over, t: &Strings) -> String {
+    let key = match over {
+        Over::Repeats => "phrase_pairs",
+        Over::Scenes => "phrase_scenes",
+    };
+    t.fill(key, &[("n", &format::count(pairs as f64))])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::pairs::Pairs;
+    use crate::analysis::sentences::{against_best, validity};
+    use crate::report::Language;
+    use crate::report::tests::results;
+
+    #[test]
+    fn english_is_what_the_analysis_says() {
+        // Gaps that differ, are equal, and fail; several scenes and one.
+        for (scenes, repeats) in [(&["one"][..], 12), (&["one", "two", "three", "four", "five", "six", "seven"][..], 3)]
+        {
+            let mut results = results(&["a", "b", "c"], scenes, repeats);
+            for (k, r) in results.runs.iter_mut().enumerate() {
+                r.time_us += k as f64;
+            }
+            let evidence = Evidence::new(&results);
+            let names = ["a", "b", "c"];
+            let t = Strings::new(Language::English);
+            let measures = [Measure::Gap, Measure::Length, Measure::Time].map(|m| Pairs::new(&evidence.grid, m));
+            let compared = measures.iter().flat_map(|pairs| against_best(&evidence.grid, pairs));
+            let sentences: Vec<Sentence> = validity(&evidence.grid).into_iter().chain(compared).collect();
+            assert!(sentences.len() >= 6);
+            for sentence in sentences {
+                assert_eq!(phrase(&sentence, &evidence, &t), sentence.english(&names));
+            }
+        }
+    }
+}
