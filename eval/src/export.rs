@@ -30,20 +30,33 @@ impl Formats {
     pub const ALL: Self = Self { html: true, csv: true, json: true, toml: true };
 }
 
+/// Writes a file whole or not at all: who reads it, or is left with it by a kill, never has half of it.
+fn put(path: &Path, text: &str) -> Result<(), Error> {
+    let mut part = path.as_os_str().to_owned();
+    part.push(".part");
+    let written = fs::write(&part, text).and_then(|()| fs::rename(&part, path));
+    written.inspect_err(|_| drop(fs::remove_file(&part))).map_err(Error::io("write", path))
+}
+
+/// Whether `folder` holds the exports of what is stored: the manifest, which is written last, and all others.
+pub fn are_made(folder: &Path, stored: &Stored) -> bool {
+    let files = ["runs.csv", "summary.csv", "paths.jsonl", "comparison.toml", "report.html"];
+    let scenes = stored.scene_files.iter().map(String::as_str);
+    let manifest = fs::read_to_string(folder.join("manifest.json"));
+    manifest.is_ok_and(|text| text == manifest_json(&stored.results))
+        && files.into_iter().chain(scenes).all(|file| folder.join(file).is_file())
+}
+
 /// Writes the exports into `folder`.
 pub fn write(folder: &Path, stored: &Stored, formats: Formats, language: Language) -> Result<(), Error> {
     let results = &stored.results;
-    let put = |name: &str, text: &str| {
-        let path = folder.join(name);
-        fs::write(&path, text).map_err(Error::io("write", &path))
-    };
+    let put = |name: &str, text: &str| put(&folder.join(name), text);
     if formats.csv {
         put("runs.csv", &runs_csv(results))?;
         put("summary.csv", &summary_csv(results))?;
     }
     if formats.json {
         put("paths.jsonl", &paths_jsonl(results))?;
-        put("manifest.json", &manifest_json(results))?;
     }
     if formats.toml {
         let scenes = folder.join("scenes");
@@ -55,6 +68,10 @@ pub fn write(folder: &Path, stored: &Stored, formats: Formats, language: Languag
     }
     if formats.html {
         put("report.html", &report::html(results, language))?;
+    }
+    // Last: it stands for all of them.
+    if formats.json {
+        put("manifest.json", &manifest_json(results))?;
     }
     Ok(())
 }
@@ -209,7 +226,7 @@ pub fn manifest_json(results: &Results) -> String {
         seed: results.seed,
         repeats: results.repeats,
         runs: results.runs.len(),
-        runs_planned: results.planners.len() * results.scenes.len() * results.repeats as usize,
+        runs_planned: results.planned(),
         seed_formula: seeds::FORMULA,
         metrics_version: crate::metrics::VERSION,
         manifest: &results.manifest,

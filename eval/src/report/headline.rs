@@ -1,7 +1,6 @@
 //! The answer in one paragraph, computed from the runs.
 
 use super::language::Strings;
-use super::planned;
 use crate::format;
 use crate::results::Results;
 use crate::stats::{Summary, summarise};
@@ -47,7 +46,7 @@ pub fn headline(results: &Results, t: &Strings) -> String {
 fn size(results: &Results, t: &Strings) -> String {
     let (p, s, r) = (results.planners.len(), results.scenes.len(), results.repeats as usize);
     t.fill(
-        if results.runs.len() < planned(results) { "headline_size_part" } else { "headline_size" },
+        if results.runs.len() < results.planned() { "headline_size_part" } else { "headline_size" },
         &[
             ("planners", &t.plural(p, "planners_one", "planners")),
             ("scenes", &t.plural(s, "scenes_one", "scenes")),
