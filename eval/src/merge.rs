@@ -247,7 +247,7 @@ mod tests {
         let campaign = whole();
         let overlap = refusal(vec![part(&campaign, "1/3"), part(&campaign, "1/2")]);
         assert!(overlap.contains("part-1 (part 1/3) and part-1 (part 1/2) overlap: both hold the run of"), "{overlap}");
-        assert!(overlap.contains("\"b-scene\", repeat 0"), "{overlap}");
+        assert!(overlap.contains("scene \"a-scene\", repeat 1"), "{overlap}");
         let mut other = whole();
         other.comparison.seed = 9;
         let foreign = refusal(vec![part(&campaign, "1/2"), part(&other, "2/2")]);
