@@ -5,11 +5,11 @@ use std::path::Path;
 
 use serde::Serialize;
 
+use crate::analysis::{Summary, summarise};
 use crate::error::Error;
 use crate::report::{self, Language};
 use crate::results::{Manifest, Results};
 use crate::seeds;
-use crate::stats::{Summary, summarise};
 use crate::store::Stored;
 
 /// What to export.

@@ -63,6 +63,24 @@ pub fn percent(ratio: f64) -> String {
     format!("{}\u{a0}%", significant(100.0 * ratio, 3))
 }
 
+/// An interval of shares as percent, with as many digits as it takes to tell its ends from each other, from 0 and
+/// from 100 %.
+pub fn share_interval(low: f64, high: f64) -> String {
+    let text = |share: f64, digits: usize| match share {
+        0.0 => "0".to_owned(),
+        1.0 => "100".to_owned(),
+        _ => format!("{:.digits$}", 100.0 * share),
+    };
+    let clear = |&digits: &usize| {
+        let shown = |share: f64| text(share, digits).parse::<f64>().unwrap_or(share);
+        let inside = |share: f64| share == 0.0 || share == 1.0 || (shown(share) > 0.0 && shown(share) < 100.0);
+        inside(low) && inside(high) && (low == high || shown(low) < shown(high))
+    };
+    // Nine digits tell any ends apart that runs in their millions can have.
+    let digits = (0..9).find(clear).unwrap_or(9);
+    format!("{}–{}\u{a0}%", text(low, digits), text(high, digits))
+}
+
 /// A ratio as percent for a tick: powers of ten beyond four digits as such.
 pub fn percent_tick(ratio: f64) -> String {
     power(100.0 * ratio).map_or_else(|| percent(ratio), |power| format!("{power}\u{a0}%"))
@@ -129,6 +147,7 @@ pub fn sort_key(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::statistics::wilson;
 
     #[test]
     fn lengths() {
@@ -174,5 +193,26 @@ mod tests {
     fn sort_keys_are_javascript_numbers() {
         assert_eq!(sort_key(f64::INFINITY), "Infinity");
         assert_eq!(sort_key(0.25).parse::<f64>(), Ok(0.25));
+    }
+
+    #[test]
+    fn intervals_are_never_points() {
+        let shown = |k, n| {
+            let (low, high) = wilson(k, n);
+            share_interval(low, high)
+        };
+        assert_eq!(shown(30, 30), "89–100\u{a0}%");
+        // n/(n + z²) = 2000/2003.84 = 0.998 08.
+        assert_eq!(shown(2000, 2000), "99.8–100\u{a0}%");
+        assert_eq!(shown(0, 2000), "0–0.2\u{a0}%");
+        assert_eq!(shown(500_000, 1_000_000), "49.9–50.1\u{a0}%");
+        assert_eq!(shown(0, 0), "0–100\u{a0}%");
+        for n in [1, 7, 1000, 28_000, 10_000_000] {
+            for k in [0, 1, n / 2, n - 1, n] {
+                let text = shown(k, n);
+                let (low, high) = text.trim_end_matches("\u{a0}%").split_once('–').unwrap();
+                assert!(low != high && (low != "0" || k == 0) && (high != "100" || k == n), "{k}/{n}: {text}");
+            }
+        }
     }
 }

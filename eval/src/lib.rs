@@ -1,5 +1,6 @@
 //! The bench: config → runs → verdicts → scores → statistics → report.
 
+pub mod analysis;
 pub mod campaign;
 pub mod cli;
 pub mod config;
@@ -21,13 +22,14 @@ pub mod results;
 pub mod runner;
 pub mod seeds;
 pub mod snapshot;
-pub mod stats;
+pub mod statistics;
 pub mod status;
 pub mod store;
 pub mod table;
 pub mod trace;
 pub mod verdict;
 pub mod work;
+pub mod worker;
 
 #[cfg(test)]
 mod testing;

@@ -16,7 +16,7 @@ use crate::config::PlannerEntry;
 use crate::report::FULL;
 use crate::results::RunRecord;
 use crate::snapshot::{MOST_GENERATIONS, Ruler, Snapshot, has_state, state};
-use crate::stats::quantile;
+use crate::statistics::quantile;
 
 /// Snapshots of every planner in the scenes that reports show in full, in the order of scenes
 /// and planners. `runs` are the campaign's, sorted by repeat within scene and planner.
@@ -26,7 +26,8 @@ pub fn snapshots(campaign: &Campaign, runs: &[RunRecord]) -> Vec<Snapshot> {
         for entry in &campaign.comparison.planners {
             let of: Vec<&RunRecord> =
                 runs.iter().filter(|r| r.scene == arena.scene.name && r.planner == entry.label).collect();
-            if let Some(run) = typical(&of) {
+            // What ended its own process would end this one too.
+            if let Some(run) = typical(&of).filter(|run| !run.status.is_killed()) {
                 all.extend(of_run(entry, arena, run));
             }
         }

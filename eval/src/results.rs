@@ -56,6 +56,11 @@ impl RunStatus {
         }
     }
 
+    /// Whether its process came to an end with it.
+    pub fn is_killed(self) -> bool {
+        matches!(self, Self::Crashed | Self::Timeout | Self::OutOfMemory)
+    }
+
     /// The status of that name.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|s| s.name() == name)

@@ -5,7 +5,8 @@
 //! planner is reset before each run and has one warm-up in each scene (and on
 //! each thread), which does not count. The timed call is `plan_into` alone.
 //! Judging and storing come after the clock has stopped. Every thread has its
-//! own planners, so results but for times do not depend on the number of jobs.
+//! own planners, here or in processes of their own ([`Seat`]), so results but for
+//! times depend neither on the number of jobs nor on isolation.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -15,25 +16,23 @@ use cpu_time::ThreadTime;
 use planner_api::{Plan, Planner, Problem, Run, Status};
 
 use crate::campaign::{Arena, Campaign, micros};
-use crate::config::PlannerEntry;
+use crate::config::BudgetSpec;
 use crate::recorder::Recorder;
 use crate::results::{RunRecord, RunStatus};
 use crate::verdict::{Fault, Judge};
 use crate::work::Work;
+use crate::worker::Seat;
 use crate::{metrics, seeds};
 
-/// Makes the runs of `work` and hands each to `sink` on the calling thread, in no particular order. `optima` are the scenes' optimal lengths. Ends early with the sink's error.
+/// Makes the runs of `work` and hands each to `sink` on the calling thread, in no particular order. `optima` are the
+/// scenes' optimal lengths. Ends early with the sink's error.
 pub fn run<E>(
     campaign: &Campaign,
     optima: &[Option<f64>],
     work: &Work,
     mut sink: impl FnMut(RunRecord) -> Result<(), E>,
 ) -> Result<(), E> {
-    let repeats = campaign.comparison.repeats as usize;
-    let units: Vec<(usize, u32)> = (0..campaign.arenas.len() * repeats)
-        .filter(|unit| work.shard.has(*unit))
-        .map(|unit| (unit / repeats, (unit % repeats) as u32))
-        .collect();
+    let units: Vec<(usize, u32)> = work.shard.units(campaign.arenas.len(), campaign.comparison.repeats).collect();
     if work.jobs == 1 {
         let mut worker = Worker::new(campaign, optima, work);
         return units.iter().try_for_each(|(scene, repeat)| worker.unit(*scene, *repeat, &mut sink));
@@ -61,30 +60,18 @@ pub fn run<E>(
     })
 }
 
-/// One thread's planners and buffers.
+/// One thread's planners.
 struct Worker<'c> {
     campaign: &'c Campaign,
     optima: &'c [Option<f64>],
     work: &'c Work,
-    planners: Vec<Option<Box<dyn Planner>>>,
-    plan: Plan,
-    recorder: Recorder,
-    /// For each planner, the scene in which it is warm.
-    warm: Vec<Option<usize>>,
+    seats: Vec<Seat<'c>>,
 }
 
 impl<'c> Worker<'c> {
     fn new(campaign: &'c Campaign, optima: &'c [Option<f64>], work: &'c Work) -> Self {
-        let planners = campaign.comparison.planners.iter().map(PlannerEntry::instance).collect();
-        Self {
-            campaign,
-            optima,
-            work,
-            planners,
-            plan: Plan::new(),
-            recorder: Recorder::new(),
-            warm: vec![None; campaign.comparison.planners.len()],
-        }
+        let seats = campaign.comparison.planners.iter().map(|entry| Seat::new(entry, work.isolate)).collect();
+        Self { campaign, optima, work, seats }
     }
 
     fn unit<E>(
@@ -102,37 +89,12 @@ impl<'c> Worker<'c> {
             if self.work.done.contains(&(scene, index, repeat)) {
                 continue;
             }
-            let entry = &comparison.planners[index];
-            if self.warm[index].replace(scene) != Some(scene) {
-                self.one(index, entry, arena, seed, &judge, self.optima[scene]);
-            }
-            let mut record = self.one(index, entry, arena, seed, &judge, self.optima[scene]);
+            let record = self.seats[index].run(scene, arena, seed);
+            let mut record = judged(record, &judge, self.optima[scene]);
             record.repeat = repeat;
             sink(record)?;
         }
         Ok(())
-    }
-
-    fn one(
-        &mut self,
-        index: usize,
-        entry: &PlannerEntry,
-        arena: &Arena,
-        seed: u64,
-        judge: &Judge<'_>,
-        optimum: Option<f64>,
-    ) -> RunRecord {
-        let Some(planner) = &mut self.planners[index] else {
-            let mut record = RunRecord::empty(&arena.scene.name, &entry.label, 0, seed);
-            record.error = Some("not yet: external planners".to_owned());
-            return record;
-        };
-        let (record, broken) = run_once(planner.as_mut(), entry, arena, seed, &mut self.plan, &mut self.recorder);
-        if broken {
-            // Its state is anyone's guess.
-            self.planners[index] = entry.instance();
-        }
-        judged(record, judge, optimum)
     }
 }
 
@@ -140,13 +102,14 @@ impl<'c> Worker<'c> {
 /// judged yet: see [`judged`]. Its path is empty where the planner has none.
 pub fn run_once(
     planner: &mut dyn Planner,
-    entry: &PlannerEntry,
+    label: &str,
+    budget: &BudgetSpec,
     arena: &Arena,
     seed: u64,
     plan: &mut Plan,
     recorder: &mut Recorder,
 ) -> (RunRecord, bool) {
-    let mut record = RunRecord::empty(&arena.scene.name, &entry.label, 0, seed);
+    let mut record = RunRecord::empty(&arena.scene.name, label, 0, seed);
     let problem: Problem<'_> = match arena.problem() {
         Ok(problem) => problem,
         Err(e) => {
@@ -161,7 +124,7 @@ pub fn run_once(
         planner.reset();
         // The clocks begin again: resetting is not planning.
         let (cpu_began, began) = (ThreadTime::now(), recorder.begin());
-        let mut run = Run::new(seed).with_budget(entry.budget.begin()).with_observer(recorder);
+        let mut run = Run::new(seed).with_budget(budget.begin()).with_observer(recorder);
         let status = planner.plan_into(&problem, &mut run, plan);
         (status, micros(began), cpu_began.elapsed())
     }));
@@ -193,7 +156,14 @@ pub fn run_once(
                 Status::NotFound => RunStatus::NotFound,
                 Status::Infeasible => RunStatus::Infeasible,
             };
-            record.path.clone_from(&plan.path);
+            match plan.path.iter().position(|p| !(p.x.is_finite() && p.y.is_finite())) {
+                None => record.path.clone_from(&plan.path),
+                // Such a path cannot be sent, stored, measured or drawn.
+                Some(point) => {
+                    record.status = RunStatus::Error;
+                    record.error = Some(Fault::NotFinite { point }.to_string());
+                }
+            }
             record.cost = Some(plan.cost).filter(|cost| cost.is_finite());
             let finite = plan.terms.iter().filter(|(_, value)| value.is_finite());
             record.terms = finite.map(|(name, value)| ((*name).to_owned(), *value)).collect();
@@ -207,15 +177,8 @@ pub fn run_once(
 pub fn judged(mut record: RunRecord, judge: &Judge<'_>, optimum: Option<f64>) -> RunRecord {
     let verdict = judge.verdict(&record.path);
     record.valid = verdict.is_ok();
-    match verdict {
-        // A path with a NaN cannot be stored, measured or drawn.
-        Err(fault @ Fault::NotFinite { .. }) => {
-            record.status = RunStatus::Error;
-            record.error = Some(fault.to_string());
-            record.path.clear();
-        }
-        Err(fault @ (Fault::WrongStart(_) | Fault::WrongGoal(_))) => record.error = Some(fault.to_string()),
-        _ => {}
+    if let Err(fault @ (Fault::WrongStart(_) | Fault::WrongGoal(_))) = verdict {
+        record.error = Some(fault.to_string());
     }
     if record.path.len() >= 2 {
         let length = metrics::length(&record.path);

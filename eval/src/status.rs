@@ -68,11 +68,10 @@ impl Status {
         let manifest = &results.manifest;
         let (mut statuses, mut of) = (BTreeMap::new(), BTreeMap::<(String, String), [usize; 2]>::new());
         for count in store.counts()? {
-            use RunStatus::{Crashed, Error, OutOfMemory, Timeout};
             *statuses.entry(count.status.name()).or_default() += count.runs;
             let [done, failed] = of.entry((count.scene, count.planner)).or_default();
             *done += count.runs;
-            if matches!(count.status, Error | Crashed | Timeout | OutOfMemory) {
+            if count.status == RunStatus::Error || count.status.is_killed() {
                 *failed += count.runs;
             }
         }

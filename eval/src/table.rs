@@ -2,9 +2,9 @@
 
 use comfy_table::{Cell, CellAlignment, LineStyle, Table, TableStyle};
 
+use crate::analysis::{Summary, summarise};
 use crate::format;
 use crate::results::Results;
-use crate::stats::{Summary, summarise};
 
 /// With more scenes only the table over all of them is printed.
 const MOST_SCENES: usize = 4;

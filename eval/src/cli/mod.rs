@@ -12,7 +12,9 @@ mod report;
 mod run;
 mod session;
 mod status;
+mod worker;
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -20,6 +22,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::error::Error;
 use crate::work::Shard;
+use crate::worker::tether;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -80,8 +83,15 @@ enum Command {
     Merge(MergeArgs),
     /// Not yet: what changed between two campaigns
     Compare(NotYetArgs),
-    /// Not yet: plan for a bench in another process
-    Worker(NotYetArgs),
+    /// Plan for another process: requests on standard input, answers on standard output, as lines of JSON
+    Worker,
+    /// Become COMMAND, and end with the process PARENT
+    #[command(name = tether::COMMAND, hide = true)]
+    Tethered {
+        parent: u32,
+        #[arg(last = true, required = true)]
+        command: Vec<OsString>,
+    },
 }
 
 #[derive(Args)]
@@ -252,7 +262,8 @@ pub fn main() -> ExitCode {
         Some(Command::Status(args)) => status::status(&args),
         Some(Command::Merge(args)) => merge::merge(&args),
         Some(Command::Compare(args)) => not_yet("touchline compare", &args),
-        Some(Command::Worker(args)) => not_yet("touchline worker", &args),
+        Some(Command::Worker) => worker::worker(),
+        Some(Command::Tethered { parent, command }) => Err(worker::tethered(parent, &command)),
     };
     outcome.unwrap_or_else(|error| {
         eprintln!("error: {error}");

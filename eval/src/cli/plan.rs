@@ -15,12 +15,12 @@ use crate::campaign::Arena;
 use crate::config::{self, PlannerEntry};
 use crate::error::Error;
 use crate::format;
-use crate::recorder::Recorder;
 use crate::report::svg::{PathLayer, scene_svg};
 use crate::results::{RunRecord, SceneResult};
 use crate::runner;
 use crate::trace::Tracer;
 use crate::verdict::Judge;
+use crate::worker::Seat;
 
 pub(super) fn plan(args: &PlanArgs) -> Result<ExitCode, Error> {
     let file = args.scene.display().to_string();
@@ -34,13 +34,8 @@ pub(super) fn plan(args: &PlanArgs) -> Result<ExitCode, Error> {
     let arena = Arena::new(scene).map_err(|e| Error::Usage(format!("{file}: {e}")))?;
     let judge = Judge::new(&arena.scene);
     let result = arena.result();
-    let Some(mut planner) = entry.instance() else {
-        return Err(Error::Usage("--planner external; expected a planner of the catalogue".to_owned()));
-    };
-    let (mut buffer, mut recorder) = (Plan::new(), Recorder::new());
-    // The first call warms up, as in the bench.
-    runner::run_once(planner.as_mut(), &entry, &arena, args.seed, &mut buffer, &mut recorder);
-    let (record, _) = runner::run_once(planner.as_mut(), &entry, &arena, args.seed, &mut buffer, &mut recorder);
+    // It warms up first, as in the bench.
+    let record = Seat::new(&entry, false).run(0, &arena, args.seed);
     let record = runner::judged(record, &judge, result.optimum.length);
     if let Some(path) = &args.svg {
         std::fs::write(path, picture(&entry, &result, &record)).map_err(Error::io("write", path))?;

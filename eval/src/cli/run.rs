@@ -61,10 +61,7 @@ pub(super) fn run(args: &RunArgs) -> Result<ExitCode, Error> {
     let failed = args.fail_on.is_some_and(|what| {
         results.runs.iter().any(|run| match what {
             FailOn::Invalid => !run.valid,
-            FailOn::Error => {
-                use RunStatus::{Crashed, Error, OutOfMemory, Timeout};
-                matches!(run.status, Error | Crashed | Timeout | OutOfMemory)
-            }
+            FailOn::Error => run.status == RunStatus::Error || run.status.is_killed(),
         })
     });
     Ok(ExitCode::from(u8::from(failed)))

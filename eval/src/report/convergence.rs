@@ -17,7 +17,7 @@ use super::svg::escape;
 use super::{axis::Axis, chart, palette};
 use crate::format;
 use crate::results::RunRecord;
-use crate::stats::quantile;
+use crate::statistics::quantile;
 
 /// The runs of one planner.
 pub struct Series<'a> {

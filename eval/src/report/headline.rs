@@ -1,9 +1,9 @@
 //! The answer in one paragraph, computed from the runs.
 
 use super::language::Strings;
+use crate::analysis::{Summary, summarise};
 use crate::format;
 use crate::results::Results;
-use crate::stats::{Summary, summarise};
 
 /// More names than this are counted instead of listed.
 const NAMED: usize = 4;

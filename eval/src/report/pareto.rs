@@ -13,7 +13,7 @@ use super::language::Strings;
 use super::svg::escape;
 use super::{axis::Axis, chart, palette};
 use crate::format;
-use crate::stats::median;
+use crate::statistics::median;
 
 const TOP: f64 = 34.0;
 const BOTTOM: f64 = 392.0;

@@ -9,10 +9,11 @@ use super::camera::{Camera, polyline};
 use super::language::Strings;
 use super::svg::{Picture, cross_mark, escape, optimum_line, picture};
 use super::{own_picture, palette, tables};
+use crate::analysis::counted_length;
 use crate::format;
 use crate::results::{RunRecord, RunStatus, SceneResult};
 use crate::snapshot::Snapshot;
-use crate::stats::{counted_length, median};
+use crate::statistics::median;
 
 /// What the cards of one scene share.
 pub struct Stage<'a> {

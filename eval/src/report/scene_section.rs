@@ -10,10 +10,10 @@ use super::language::Strings;
 use super::planner_card::{Stage, card, miniature, reference};
 use super::strip::{self, Row};
 use super::{fitness, pareto, tables};
+use crate::analysis::counted_length;
 use crate::format;
 use crate::results::{Results, RunRecord, SceneResult};
 use crate::snapshot::Snapshot;
-use crate::stats::counted_length;
 
 /// Runs drawn into one full picture; the page stays within some megabytes.
 const DRAWN: usize = 250;

@@ -8,7 +8,7 @@ use minijinja::{Value, context};
 use super::language::Strings;
 use super::svg::escape;
 use super::{axis::Axis, chart, palette};
-use crate::stats::quantile;
+use crate::statistics::quantile;
 
 /// The values of one planner, +∞ for failures.
 pub struct Row<'a> {

@@ -4,47 +4,14 @@ use minijinja::{Value, context};
 
 use super::language::Strings;
 use super::palette;
+use crate::analysis::{Summary, summarise};
 use crate::format;
 use crate::results::{Results, RunRecord};
-use crate::stats::{Summary, summarise};
+use crate::statistics::wilson;
 
 /// A cell: what is shown, what sorting reads, whether it is the best of its column.
 fn cell(shown: String, key: f64, best: bool) -> Value {
     context! { shown, key => format::sort_key(key), best }
-}
-
-/// 95 % interval of a share k/n. Wilson, *J. Am. Stat. Assoc.* 22 (1927) 209–212.
-pub fn wilson(k: usize, n: usize) -> (f64, f64) {
-    if n == 0 {
-        return (0.0, 1.0);
-    }
-    let (none, all) = (k == 0, k == n);
-    let (n, p, z) = (n as f64, k as f64 / n as f64, 1.959_963_985);
-    let middle = p + z * z / (2.0 * n);
-    let half = z * (p * (1.0 - p) / n + z * z / (4.0 * n * n)).sqrt();
-    let scale = 1.0 + z * z / n;
-    // These two ends are exact; rounding would leave them a little off.
-    let low = if none { 0.0 } else { ((middle - half) / scale).max(0.0) };
-    let high = if all { 1.0 } else { ((middle + half) / scale).min(1.0) };
-    (low, high)
-}
-
-/// An interval of shares as percent, with as many digits as it takes to tell its ends from each other, from 0 and
-/// from 100 %.
-fn interval(low: f64, high: f64) -> String {
-    let text = |share: f64, digits: usize| match share {
-        0.0 => "0".to_owned(),
-        1.0 => "100".to_owned(),
-        _ => format!("{:.digits$}", 100.0 * share),
-    };
-    let clear = |&digits: &usize| {
-        let shown = |share: f64| text(share, digits).parse::<f64>().unwrap_or(share);
-        let inside = |share: f64| share == 0.0 || share == 1.0 || (shown(share) > 0.0 && shown(share) < 100.0);
-        inside(low) && inside(high) && (low == high || shown(low) < shown(high))
-    };
-    // Nine digits tell any ends apart that runs in their millions can have.
-    let digits = (0..9).find(clear).unwrap_or(9);
-    format!("{}–{}\u{a0}%", text(low, digits), text(high, digits))
 }
 
 /// The comparison table of one scene, or (`None`) of all; `unit` is empty when scenes differ in it.
@@ -76,7 +43,7 @@ pub fn comparison(results: &Results, scene: Option<&str>, unit: &str, t: &String
                 label => s.planner.as_str(), swatch => Value::from_safe_string(palette::swatch(*i)),
                 valid => cell(format!("{}/{}", s.valid, s.runs), share, false),
                 percent => format!("{:.1}", 100.0 * share),
-                interval => interval(low, high),
+                interval => format::share_interval(low, high),
                 length => cell(format::length(s.length_median), s.length_median, ties(s.length_median, best_length)),
                 gap => cell(
                     s.gap_median.map_or(format::NONE.to_owned(), format::percent), gap(s), ties(gap(s), best_gap)),
@@ -151,39 +118,4 @@ pub fn runs(runs: &[&RunRecord], t: &Strings) -> Value {
         })
         .collect();
     Value::from(rows)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn wilson_interval() {
-        // 30 of 30: lower end n/(n + z²) = 30/33.8415; half a unit of the last digit given.
-        let (low, high) = wilson(30, 30);
-        assert!((low - 0.886_49).abs() < 5e-6 && high == 1.0, "{low} {high}");
-        assert_eq!(wilson(0, 0), (0.0, 1.0));
-        assert!(wilson(0, 30).0 == 0.0);
-    }
-
-    #[test]
-    fn intervals_are_never_points() {
-        let shown = |k, n| {
-            let (low, high) = wilson(k, n);
-            interval(low, high)
-        };
-        assert_eq!(shown(30, 30), "89–100\u{a0}%");
-        // n/(n + z²) = 2000/2003.84 = 0.998 08.
-        assert_eq!(shown(2000, 2000), "99.8–100\u{a0}%");
-        assert_eq!(shown(0, 2000), "0–0.2\u{a0}%");
-        assert_eq!(shown(500_000, 1_000_000), "49.9–50.1\u{a0}%");
-        assert_eq!(shown(0, 0), "0–100\u{a0}%");
-        for n in [1, 7, 1000, 28_000, 10_000_000] {
-            for k in [0, 1, n / 2, n - 1, n] {
-                let text = shown(k, n);
-                let (low, high) = text.trim_end_matches("\u{a0}%").split_once('–').unwrap();
-                assert!(low != high && (low != "0" || k == 0) && (high != "100" || k == n), "{k}/{n}: {text}");
-            }
-        }
-    }
 }

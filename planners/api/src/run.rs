@@ -16,6 +16,8 @@ pub struct Run<'r> {
     observer: Option<&'r mut dyn Observer>,
     detail: Detail,
     stopped: bool,
+    /// Whether the observer wanted no more.
+    broken_off: bool,
 }
 
 impl<'r> Run<'r> {
@@ -28,6 +30,7 @@ impl<'r> Run<'r> {
             observer: None,
             detail: Detail::None,
             stopped: false,
+            broken_off: false,
         }
     }
 
@@ -79,6 +82,30 @@ impl<'r> Run<'r> {
         self.budget.deadline.is_some_and(|deadline| Instant::now() >= deadline)
     }
 
+    /// Carries out `stage` with a share of what is left of the budget, so that stages after it have the rest:
+    /// `counts` of the iterations and evaluations (at least one of each is kept back), `time` of the time until the
+    /// deadline. Without a limit nothing is shared out.
+    pub fn with_share<T>(&mut self, counts: f64, time: f64, stage: impl FnOnce(&mut Self) -> T) -> T {
+        let whole = self.budget;
+        let share = |limit: Option<u64>, used: u64| {
+            // Exact below 2⁵³; larger budgets end no run.
+            limit.map(|limit| used + (counts * limit.saturating_sub(used) as f64).floor() as u64)
+        };
+        self.budget = Budget {
+            iterations: share(whole.iterations, self.spent.iterations),
+            evaluations: share(whole.evaluations, self.spent.evaluations),
+            deadline: whole.deadline.map(|deadline| {
+                let now = Instant::now();
+                now + deadline.saturating_duration_since(now).mul_f64(time)
+            }),
+        };
+        let outcome = stage(self);
+        self.budget = whole;
+        // The share's end is not the run's.
+        self.stopped = self.broken_off;
+        outcome
+    }
+
     /// Whether budget or observer have ended the run.
     pub fn stopped(&self) -> bool {
         self.stopped
@@ -99,6 +126,7 @@ impl<'r> Run<'r> {
         let Counters { iterations: iteration, evaluations, .. } = self.spent;
         if observer.frame(&Frame { stage, iteration, evaluations, best_cost, view }) == ControlFlow::Break(()) {
             self.stopped = true;
+            self.broken_off = true;
             self.observer = None;
         }
     }
@@ -107,6 +135,21 @@ impl<'r> Run<'r> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_share_leaves_the_rest_to_later_stages() {
+        let budget = Budget { iterations: Some(400), evaluations: Some(11), deadline: None };
+        let mut run = Run::new(1).with_budget(budget);
+        run.spent.evaluations = 1;
+        run.with_share(0.9, 0.75, |run| {
+            assert!(run.allows(9) && !run.allows(10), "nine of the ten that are left");
+            assert!(run.stopped());
+            run.spent.evaluations += 9;
+        });
+        assert!(!run.stopped() && run.allows(1) && !run.allows(2), "the tenth is the next stage's");
+        let whole = Run::new(1).with_share(0.9, 0.75, |run| run.allows(u64::MAX));
+        assert!(whole, "nothing to share");
+    }
 
     #[test]
     fn budgets_count_iterations_and_evaluations() {

@@ -1,32 +1,14 @@
-//! Order statistics in which failures count: a run without a valid path is +∞.
+//! The rows of the comparison table.
 
-use crate::results::{Results, RunRecord};
-
-/// The q-quantile, 0 ≤ q ≤ 1, of `values`, by linear interpolation between order
-/// statistics (Hyndman & Fan 1996, type 7). Infinite values take part; between a
-/// finite value and +∞ the answer is +∞. `None` for no values.
-pub fn quantile(values: &[f64], q: f64) -> Option<f64> {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let last = sorted.len().checked_sub(1)?;
-    let at = q * last as f64;
-    let (below, share) = (at.floor() as usize, at.fract());
-    let low = sorted[below];
-    Some(if share == 0.0 { low } else { low + share * (sorted[below + 1] - low) })
-        .map(|v| if v.is_nan() { f64::INFINITY } else { v })
-}
-
-/// The median of `values`.
-pub fn median(values: &[f64]) -> Option<f64> {
-    quantile(values, 0.5)
-}
+use crate::results::{Results, RunRecord, SceneSet};
+use crate::statistics::{median, quantile};
 
 /// What the comparison table says of one planner, over one scene or all.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Summary {
     /// The planner's label.
     pub planner: String,
-    /// The scene, `None` for all of them together.
+    /// The scene, `None` for all test scenes together.
     pub scene: Option<String>,
     /// Runs made.
     pub runs: usize,
@@ -51,11 +33,13 @@ pub fn counted_length(run: &RunRecord) -> f64 {
     if run.valid { run.length.unwrap_or(f64::INFINITY) } else { f64::INFINITY }
 }
 
-/// Summarises the runs of one planner. `None` when it has no runs there.
+/// Summarises the runs of one planner in one scene, or (`None`) in all test scenes. `None` when it has no runs there.
 ///
 /// Failures are +∞ in every median.
 pub fn summarise(results: &Results, planner: &str, scene: Option<&str>) -> Option<Summary> {
-    let runs: Vec<&RunRecord> = results.runs_of(planner, scene).collect();
+    let tuning = |name: &str| results.scenes.iter().any(|s| s.scene.name == name && s.set == SceneSet::Tuning);
+    let counts = |r: &&RunRecord| scene.is_some() || !tuning(&r.scene);
+    let runs: Vec<&RunRecord> = results.runs_of(planner, scene).filter(counts).collect();
     let of = |f: &dyn Fn(&RunRecord) -> f64| runs.iter().map(|r| f(r)).collect::<Vec<f64>>();
     let lengths = of(&counted_length);
     // A median over the easier part of the scenes would drop the failures in the others.
@@ -77,16 +61,17 @@ pub fn summarise(results: &Results, planner: &str, scene: Option<&str>) -> Optio
 
 #[cfg(test)]
 mod tests {
+    use super::super::testing::{results, run};
     use super::*;
 
     #[test]
-    fn quantiles_with_failures() {
-        let inf = f64::INFINITY;
-        assert_eq!(median(&[3.0, 1.0, 2.0]), Some(2.0));
-        assert_eq!(median(&[1.0, 2.0, 3.0, 4.0]), Some(2.5));
-        assert_eq!(median(&[1.0, 2.0, inf, inf]), Some(inf));
-        assert_eq!(median(&[inf, inf]), Some(inf));
-        assert_eq!(quantile(&[1.0, 2.0, 3.0, 4.0, inf], 0.25), Some(2.0));
-        assert_eq!(median(&[]), None);
+    fn tuning_scenes_stand_alone() {
+        let runs = vec![run("s", "a", 0, 11.0), run("t", "a", 0, f64::INFINITY)];
+        let mut results = results(&["a"], &[("s", Some(10.0)), ("t", None)], runs);
+        results.scenes[1].set = SceneSet::Tuning;
+        let all = summarise(&results, "a", None).unwrap();
+        assert_eq!((all.runs, all.length_median), (1, 11.0));
+        let tuning = summarise(&results, "a", Some("t")).unwrap();
+        assert_eq!((tuning.runs, tuning.length_median, tuning.gap_median), (1, f64::INFINITY, None));
     }
 }

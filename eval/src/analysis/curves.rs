@@ -1,0 +1,119 @@
+//! The gap of a run against its effort.
+//!
+//! How good a run was is the judge's word on its final path: one that is not valid was never any good. When it
+//! became so good is read off the planner's own progress, where its cost is a length (of no valid run the final
+//! cost differs from the length by more than 10⁻⁵ of it); otherwise, and at the latest, it did when the run ended.
+
+use super::grid::Grid;
+use crate::results::RunRecord;
+
+/// A valid path's cost that differs from its length by more than this share is not a length: arcs stored as
+/// polylines differ from the arc's length by up to 10⁻⁶, sums by their rounding.
+const OTHER: f64 = 1e-5;
+
+/// What a planner spends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Effort {
+    /// Evaluations of its own objective.
+    Evaluations,
+    /// Wall time, µs.
+    Time,
+}
+
+/// A run's gap from some effort on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Step {
+    evaluations: f64,
+    time_us: f64,
+    /// length/optimum − 1.
+    pub gap: f64,
+}
+
+impl Step {
+    /// The effort from which on the gap holds.
+    pub fn at(&self, effort: Effort) -> f64 {
+        match effort {
+            Effort::Evaluations => self.evaluations,
+            Effort::Time => self.time_us,
+        }
+    }
+}
+
+/// One run: its course and what it spent in all.
+pub(super) struct Course {
+    /// Ever smaller gaps; none for a run without a valid path.
+    pub steps: Vec<Step>,
+    /// What was spent at the run's end.
+    pub end: Step,
+}
+
+/// The courses of all runs in scenes whose optimum is known.
+pub struct Curves {
+    scenes: usize,
+    planners: usize,
+    /// Cells as in the grid; none of the scenes without optimum.
+    cells: Vec<Vec<Course>>,
+    with_optimum: Vec<usize>,
+}
+
+impl Curves {
+    /// Reads every run's progress.
+    pub fn new(grid: &Grid<'_>) -> Self {
+        let (planners, scenes) = (grid.planners.len(), grid.scenes.len());
+        let mut cells = Vec::with_capacity(planners * scenes);
+        for planner in 0..planners {
+            let lengths = grid.runs_in(planner, None).all(cost_is_length);
+            for (s, scene) in grid.scenes.iter().enumerate() {
+                let runs = if scene.optimum.length.is_some() { grid.runs(planner, s) } else { &[] };
+                let optimum = scene.optimum.length.unwrap_or(f64::NAN);
+                cells.push(runs.iter().map(|run| course(run, optimum, lengths)).collect());
+            }
+        }
+        let with_optimum = (0..scenes).filter(|s| grid.scenes[*s].optimum.length.is_some()).collect();
+        Self { scenes, planners, cells, with_optimum }
+    }
+
+    /// The scenes whose optimum is known: no other enters.
+    pub fn scenes(&self) -> &[usize] {
+        &self.with_optimum
+    }
+
+    /// Planners of the grid.
+    pub(super) fn planners(&self) -> usize {
+        self.planners
+    }
+
+    /// The runs of one planner in one scene or (`None`) in all with an optimum.
+    pub(super) fn of(&self, planner: usize, scene: Option<usize>) -> impl Iterator<Item = &Course> {
+        let scenes = scene.map_or(0..self.scenes, |s| s..s + 1);
+        scenes.flat_map(move |s| &self.cells[planner * self.scenes + s])
+    }
+}
+
+fn cost_is_length(run: &RunRecord) -> bool {
+    match (run.valid, run.cost, run.length) {
+        (true, Some(cost), Some(length)) => (cost - length).abs() <= OTHER * length.abs(),
+        _ => true,
+    }
+}
+
+fn course(run: &RunRecord, optimum: f64, lengths: bool) -> Course {
+    let end = Step { evaluations: run.evaluations as f64, time_us: run.time_us, gap: f64::INFINITY };
+    let Some(length) = run.length.filter(|_| run.valid) else { return Course { steps: Vec::new(), end } };
+    let gap = (length / optimum - 1.0).max(0.0);
+    let mut steps: Vec<Step> = Vec::new();
+    for p in run.progress.iter().filter(|p| lengths && p.cost.is_finite()) {
+        let step = Step {
+            evaluations: end.evaluations.min(p.evaluations as f64),
+            time_us: end.time_us.min(p.time_us),
+            gap: gap.max(p.cost / optimum - 1.0),
+        };
+        if steps.last().is_none_or(|last| step.gap < last.gap) {
+            steps.push(step);
+        }
+    }
+    if steps.last().is_none_or(|last| gap < last.gap) {
+        steps.push(Step { gap, ..end });
+    }
+    Course { steps, end }
+}

@@ -1,0 +1,23 @@
+//! From a campaign's results to figures ready to print.
+//!
+//! Everything but [`summarise`] starts from a [`Grid`], the runs of the test scenes sorted once by planner and scene:
+//! tuning scenes are no evidence. Planners and scenes are named by their position in the grid.
+
+mod blocks;
+mod curves;
+pub mod fixed_budget;
+mod grid;
+pub mod noise;
+pub mod pairs;
+pub mod ranking;
+pub mod sentences;
+mod summary;
+pub mod targets;
+
+#[cfg(test)]
+mod testing;
+
+pub use blocks::{Measure, Over, quality};
+pub use curves::{Curves, Effort};
+pub use grid::Grid;
+pub use summary::{Summary, counted_length, summarise};

@@ -1,0 +1,246 @@
+//! One process that answers requests, and everything that may go wrong with it.
+//!
+//! Three threads hold its pipes, so that nothing it does or fails to do blocks the caller: one writes requests, one
+//! reads lines, one keeps the last words on standard error. On Unix it leads a process group of its own, which is
+//! killed as a whole.
+
+use std::collections::VecDeque;
+use std::ffi::OsStr;
+use std::io::{self, BufRead, BufReader, Read, Write};
+use std::path::Path;
+use std::process::{Child, ExitStatus, Stdio};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender, SyncSender};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use super::tether;
+use crate::campaign::micros;
+use crate::results::RunStatus;
+
+/// The longest line that is read, bytes.
+const LONGEST: u64 = 64 << 20;
+/// How often a silent process is looked at.
+const TICK: Duration = Duration::from_millis(10);
+/// How long a process whose pipe closed may take to end, and one that ended to deliver what it wrote.
+const GRACE: Duration = Duration::from_millis(200);
+/// How much of its standard error is kept, bytes.
+const WORDS: usize = 2048;
+
+/// Limits of one request.
+#[derive(Debug, Clone, Copy)]
+pub struct Bounds {
+    /// Time to answer.
+    pub time: Duration,
+    /// Most resident memory, MiB; Linux only.
+    pub memory_mb: Option<u64>,
+}
+
+/// Why there is no answer. The process is dead.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Failure {
+    /// Error, crashed, timeout or out of memory.
+    pub status: RunStatus,
+    /// What happened.
+    pub error: String,
+    /// How long after the request, µs.
+    pub time_us: f64,
+}
+
+/// A running process.
+pub struct Process {
+    child: Child,
+    /// Dropping it closes the process's standard input.
+    requests: Option<Sender<Vec<u8>>>,
+    lines: Receiver<Line>,
+    words: Arc<Mutex<VecDeque<u8>>>,
+    /// Disconnects when its standard error closes.
+    mute: Receiver<()>,
+    /// Set when it is dead and reaped: its number may be another's by then.
+    ended: Option<ExitStatus>,
+}
+
+enum Line {
+    Whole(Vec<u8>),
+    TooLong,
+}
+
+impl Process {
+    /// Starts `program` in `folder`. It must end on the thread that starts it.
+    pub fn start(program: impl AsRef<OsStr>, arguments: &[impl AsRef<OsStr>], folder: &Path) -> io::Result<Self> {
+        let mut command = tether::command(program, arguments)?;
+        command.current_dir(folder).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut command, 0);
+        let mut child = command.spawn()?;
+        let (stdin, stdout, stderr) = (child.stdin.take(), child.stdout.take(), child.stderr.take());
+        let (Some(mut stdin), Some(stdout), Some(mut stderr)) = (stdin, stdout, stderr) else {
+            unreachable!("all three are piped")
+        };
+        let (requests, waiting) = mpsc::channel::<Vec<u8>>();
+        // A closed pipe shows on the other side.
+        thread::spawn(move || waiting.iter().try_for_each(|request| stdin.write_all(&request)));
+        // Whoever talks without being asked is stopped by the full pipe.
+        let (sender, lines) = mpsc::sync_channel(1);
+        thread::spawn(move || read_lines(stdout, &sender));
+        let words = Arc::new(Mutex::new(VecDeque::with_capacity(WORDS)));
+        let (speaking, mute) = mpsc::channel();
+        let kept = Arc::clone(&words);
+        thread::spawn(move || {
+            keep_last(&mut stderr, &kept);
+            drop(speaking);
+        });
+        Ok(Self { child, requests: Some(requests), lines, words, mute, ended: None })
+    }
+
+    /// Sends the line `request` and waits for one line, which is returned with the time that both took, µs.
+    pub fn ask(&mut self, request: Vec<u8>, bounds: Bounds) -> Result<(Vec<u8>, f64), Failure> {
+        let began = Instant::now();
+        if let Some(requests) = &self.requests {
+            // Fails when the process has closed its standard input: then it will not answer either.
+            let _ = requests.send(request);
+        }
+        loop {
+            let left = bounds.time.saturating_sub(began.elapsed());
+            if left.is_zero() {
+                let limit = bounds.time.as_secs_f64();
+                return Err(self.end(RunStatus::Timeout, began, format!("no answer within its hard limit, {limit} s")));
+            }
+            let answer = match self.lines.recv_timeout(left.min(TICK)) {
+                // What it wrote before it died may still be on its way.
+                Err(RecvTimeoutError::Timeout) if self.is_dead() => self.lines.recv_timeout(GRACE),
+                answer => answer,
+            };
+            let time_us = micros(began);
+            if let Some(most) = bounds.memory_mb
+                && let Some(used) = self.peak_mib().filter(|used| *used > most as f64)
+            {
+                let error = format!("{used:.1} MiB of memory; expected at most memory_mb = {most}");
+                return Err(self.end(RunStatus::OutOfMemory, began, error));
+            }
+            match answer {
+                Ok(Line::Whole(line)) => return Ok((line, time_us)),
+                Ok(Line::TooLong) => {
+                    let error = format!("a line of more than {} MiB; expected an answer", LONGEST >> 20);
+                    return Err(self.end(RunStatus::Error, began, error));
+                }
+                Err(RecvTimeoutError::Timeout) if !self.is_dead() => {}
+                Err(_) => return Err(self.crashed(began)),
+            }
+        }
+    }
+
+    /// Its death by its own doing, in words.
+    fn crashed(&mut self, began: Instant) -> Failure {
+        let died = self.dies_within(GRACE);
+        let mut failure = self.end(RunStatus::Crashed, began, String::new());
+        failure.error = match self.ended {
+            Some(status) if died => format!("its process ended before it answered: {status}"),
+            _ => "it closed its standard output before it answered".to_owned(),
+        };
+        let words = self.last_words();
+        if !words.is_empty() {
+            failure.error.push_str("; its last words: ");
+            failure.error.push_str(&words);
+        }
+        failure
+    }
+
+    fn end(&mut self, status: RunStatus, began: Instant, error: String) -> Failure {
+        let time_us = micros(began);
+        self.kill();
+        Failure { status, error, time_us }
+    }
+
+    /// The end of its standard error.
+    fn last_words(&self) -> String {
+        let _ = self.mute.recv_timeout(GRACE);
+        let words = self.words.lock().unwrap_or_else(PoisonError::into_inner);
+        let (a, b) = words.as_slices();
+        String::from_utf8_lossy(&[a, b].concat()).trim().to_owned()
+    }
+
+    fn dies_within(&self, time: Duration) -> bool {
+        let began = Instant::now();
+        while !self.is_dead() {
+            if began.elapsed() >= time {
+                return false;
+            }
+            thread::sleep(Duration::from_millis(1));
+        }
+        true
+    }
+
+    /// Most resident memory so far, MiB, while it lives. `VmHWM` of proc_pid_status(5).
+    fn peak_mib(&self) -> Option<f64> {
+        let status = std::fs::read_to_string(format!("/proc/{}/status", self.child.id())).ok()?;
+        let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+        let kib: f64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+        Some(kib / 1024.0)
+    }
+
+    /// Whether it has ended by itself. Does not reap it, so that its group keeps its number.
+    #[cfg(unix)]
+    fn is_dead(&self) -> bool {
+        use rustix::process::{Pid, WaitId, WaitIdOptions, waitid};
+        let look = WaitIdOptions::EXITED | WaitIdOptions::NOHANG | WaitIdOptions::NOWAIT;
+        self.ended.is_some() || !matches!(waitid(WaitId::Pid(Pid::from_child(&self.child)), look), Ok(None))
+    }
+
+    #[cfg(not(unix))]
+    fn is_dead(&self) -> bool {
+        // Nothing here looks without reaping.
+        self.ended.is_some()
+    }
+
+    /// Kills what is left of it and its group, and reaps it.
+    fn kill(&mut self) {
+        if self.ended.is_none() {
+            #[cfg(unix)]
+            let _ = rustix::process::kill_process_group(
+                rustix::process::Pid::from_child(&self.child),
+                rustix::process::Signal::KILL,
+            );
+            #[cfg(not(unix))]
+            let _ = self.child.kill();
+            self.ended = self.child.wait().ok();
+        }
+    }
+}
+
+impl Drop for Process {
+    /// Closes its standard input, which asks it to end, and helps if it does not.
+    fn drop(&mut self) {
+        self.requests = None;
+        if self.ended.is_none() {
+            self.dies_within(GRACE);
+            self.kill();
+        }
+    }
+}
+
+fn read_lines(stdout: impl Read, sender: &SyncSender<Line>) {
+    let mut stdout = BufReader::new(stdout);
+    loop {
+        let mut line = Vec::new();
+        // An end without a line's end is no line.
+        let line = match stdout.by_ref().take(LONGEST).read_until(b'\n', &mut line) {
+            Ok(_) if line.ends_with(b"\n") => Line::Whole(line),
+            Ok(length) if length as u64 == LONGEST => Line::TooLong,
+            _ => return,
+        };
+        if sender.send(line).is_err() {
+            return;
+        }
+    }
+}
+
+fn keep_last(stderr: &mut impl Read, words: &Mutex<VecDeque<u8>>) {
+    let mut chunk = [0; WORDS];
+    while let Ok(length @ 1..) = stderr.read(&mut chunk) {
+        let mut words = words.lock().unwrap_or_else(PoisonError::into_inner);
+        words.extend(&chunk[..length]);
+        let excess = words.len().saturating_sub(WORDS);
+        words.drain(..excess);
+    }
+}

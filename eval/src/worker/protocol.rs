@@ -1,0 +1,184 @@
+//! The worker protocol: one line of JSON for each request and each answer.
+//!
+//! ```text
+//! → {"protocol":1,"id":1,"kind":"pso","scene":{…},"settings":{…},"seed":7,"budget":{"iterations":400}}
+//! ← {"id":1,"status":"solved","path":[[x,y],…],"evaluations":8000,"progress":[[evaluations,time_us,cost],…]}
+//! ← {"id":1,"error":"why there is no plan"}
+//! ```
+//!
+//! `scene` has the keys of the scene file, `budget` those of a comparison's budget, `settings` those of the planner's
+//! table without the reserved ones. `kind` names a planner of the catalogue and is absent for external planners. NaN
+//! and infinity are no JSON: in an external planner's settings they are text, as dates are. Floats round-trip.
+
+use env_model::Point;
+use serde::{Deserialize, Serialize};
+use serde_json::value::RawValue;
+
+use crate::config::BudgetSpec;
+use crate::results::{Progress, RunRecord, RunStatus};
+
+/// The version that this program speaks.
+pub const VERSION: u32 = 1;
+
+/// What an answer may look like, for messages.
+pub const EXPECTED: &str = r#"{"id":N,"status":"solved","path":[[x,y],…]} or {"id":N,"error":"…"} on one line"#;
+
+/// Asks for one run.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Request<'a> {
+    /// [`VERSION`].
+    pub protocol: u32,
+    /// The answer carries it too.
+    pub id: u64,
+    /// A planner of the catalogue; `None` for an external planner, which is its own kind.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kind: Option<String>,
+    /// The scene as JSON.
+    #[serde(borrow)]
+    pub scene: &'a RawValue,
+    /// The planner's settings as JSON; `None` for defaults.
+    #[serde(borrow, default, skip_serializing_if = "Option::is_none")]
+    pub settings: Option<&'a RawValue>,
+    /// The run's seed.
+    pub seed: u64,
+    /// What the run may spend.
+    #[serde(default)]
+    pub budget: BudgetSpec,
+}
+
+/// How a planner may say that its run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Ending {
+    Solved,
+    BudgetSpent,
+    NotFound,
+    Infeasible,
+}
+
+impl Ending {
+    fn of(status: RunStatus) -> Option<Self> {
+        match status {
+            RunStatus::Solved => Some(Self::Solved),
+            RunStatus::BudgetSpent => Some(Self::BudgetSpent),
+            RunStatus::NotFound => Some(Self::NotFound),
+            RunStatus::Infeasible => Some(Self::Infeasible),
+            RunStatus::Error | RunStatus::Crashed | RunStatus::Timeout | RunStatus::OutOfMemory => None,
+        }
+    }
+
+    fn status(self) -> RunStatus {
+        match self {
+            Self::Solved => RunStatus::Solved,
+            Self::BudgetSpent => RunStatus::BudgetSpent,
+            Self::NotFound => RunStatus::NotFound,
+            Self::Infeasible => RunStatus::Infeasible,
+        }
+    }
+}
+
+/// Tells of one run. Unknown keys are ignored.
+#[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Answer {
+    /// That of the request; `None` only for a request that could not be read.
+    id: Option<u64>,
+    #[serde(skip_serializing_if = "is_default")]
+    status: Option<Ending>,
+    #[serde(skip_serializing_if = "is_default")]
+    error: Option<String>,
+    #[serde(skip_serializing_if = "is_default")]
+    path: Option<Vec<[f64; 2]>>,
+    #[serde(skip_serializing_if = "is_default")]
+    iterations: u64,
+    #[serde(skip_serializing_if = "is_default")]
+    evaluations: u64,
+    #[serde(skip_serializing_if = "is_default")]
+    collision_checks: u64,
+    #[serde(skip_serializing_if = "is_default")]
+    time_us: f64,
+    #[serde(skip_serializing_if = "is_default")]
+    cpu_us: f64,
+    #[serde(skip_serializing_if = "is_default")]
+    cost: Option<f64>,
+    #[serde(skip_serializing_if = "is_default")]
+    terms: Vec<(String, f64)>,
+    #[serde(skip_serializing_if = "is_default")]
+    progress: Vec<(u64, f64, f64)>,
+}
+
+/// Whether a key may be left out.
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
+}
+
+impl Answer {
+    /// Tells that request `id` was no good.
+    pub fn refusal(id: Option<u64>, error: String) -> Self {
+        Self { id, error: Some(error), ..Self::default() }
+    }
+
+    /// Tells of a run that [`run_once`](crate::runner::run_once) made.
+    pub fn of_run(id: u64, run: RunRecord) -> Self {
+        let status = Ending::of(run.status);
+        Self {
+            id: Some(id),
+            status,
+            error: run.error,
+            path: status.map(|_| run.path.iter().map(|p| [p.x, p.y]).collect()),
+            iterations: run.iterations,
+            evaluations: run.evaluations,
+            collision_checks: run.collision_checks,
+            time_us: run.time_us,
+            cpu_us: run.cpu_us,
+            cost: run.cost,
+            terms: run.terms,
+            progress: run.progress.iter().map(|p| (p.evaluations, p.time_us, p.cost)).collect(),
+        }
+    }
+
+    /// Reads the answer to request `id`; else what is wrong with it.
+    pub fn read(line: &[u8], id: u64) -> Result<Self, String> {
+        let answer: Self = serde_json::from_slice(line).map_err(|e| e.to_string())?;
+        if answer.id != Some(id) {
+            let found = answer.id.map_or_else(|| "no id".to_owned(), |found| format!("id {found}"));
+            return Err(format!("{found} in answer to request {id}"));
+        }
+        match (answer.status, &answer.error, &answer.path) {
+            (None, None, _) => return Err("neither status nor error".to_owned()),
+            (Some(Ending::Solved), _, None) => return Err("status solved without path".to_owned()),
+            _ => {}
+        }
+        // What a clock and a counter would say: neither runs backwards.
+        let rising = |w: &[(u64, f64, f64)]| w[0].0 <= w[1].0 && w[0].1 <= w[1].1;
+        if answer.progress.first().is_some_and(|p| p.1 < 0.0) || !answer.progress.windows(2).all(rising) {
+            return Err("progress whose evaluations or times fall".to_owned());
+        }
+        Ok(answer)
+    }
+
+    /// Puts what it tells into `record`. An error outweighs a status.
+    pub fn tell(self, record: &mut RunRecord) {
+        record.status = match (&self.error, self.status) {
+            (None, Some(ending)) => ending.status(),
+            _ => RunStatus::Error,
+        };
+        record.error = self.error;
+        record.path = self.path.unwrap_or_default().into_iter().map(Point::from).collect();
+        record.iterations = self.iterations;
+        record.evaluations = self.evaluations;
+        record.collision_checks = self.collision_checks;
+        record.time_us = self.time_us;
+        record.cpu_us = self.cpu_us;
+        record.cost = self.cost;
+        record.terms = self.terms;
+        let mut best = f64::INFINITY;
+        let better = self.progress.into_iter().filter(|p| {
+            let better = p.2 < best;
+            best = best.min(p.2);
+            better
+        });
+        record.progress = better.map(|(evaluations, time_us, cost)| Progress { evaluations, time_us, cost }).collect();
+    }
+}

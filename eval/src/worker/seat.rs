@@ -1,0 +1,207 @@
+//! Where a planner of a campaign runs, for one thread.
+
+use std::ffi::OsString;
+use std::path::Path;
+
+use planner_api::{Plan, Planner};
+use serde_json::value::RawValue;
+
+use super::process::{Bounds, Failure, Process};
+use super::protocol::{Answer, EXPECTED, Request, VERSION};
+use super::tether;
+use crate::campaign::{Arena, micros};
+use crate::config::{Maker, PlannerEntry};
+use crate::recorder::Recorder;
+use crate::results::{RunRecord, RunStatus};
+use crate::runner;
+
+/// A planner's place: in this process, or in one of its own that is started when it is needed and again after it died.
+///
+/// Planners of the catalogue have one warm-up in each scene. An external planner has its first request twice, so
+/// that its start is not timed, and no other warm-up. Neither counts, unless the process fails in it: that is the
+/// run's result then.
+pub struct Seat<'c> {
+    entry: &'c PlannerEntry,
+    place: Place,
+    /// The scene in which the planner is warm.
+    warm: Option<usize>,
+}
+
+enum Place {
+    Here(Box<Here>),
+    Apart(Box<Apart>),
+}
+
+/// A planner with buffers of its own.
+struct Here {
+    planner: Box<dyn Planner>,
+    plan: Plan,
+    recorder: Recorder,
+}
+
+/// A planner in a process, if that runs.
+struct Apart {
+    process: Option<Process>,
+    settings: Box<RawValue>,
+    /// The scene that was asked for last, and its JSON.
+    scene: Option<(usize, Box<RawValue>)>,
+    last_id: u64,
+}
+
+impl<'c> Seat<'c> {
+    /// A seat in this process, unless `isolate` or the planner itself demand one apart.
+    pub fn new(entry: &'c PlannerEntry, isolate: bool) -> Self {
+        let place = match entry.instance().filter(|_| !isolate && !entry.isolated()) {
+            Some(planner) => Place::Here(Box::new(Here { planner, plan: Plan::new(), recorder: Recorder::new() })),
+            None => {
+                let settings = raw(&json(&toml::Value::Table(entry.settings.clone())));
+                Place::Apart(Box::new(Apart { process: None, settings, scene: None, last_id: 0 }))
+            }
+        };
+        Self { entry, place, warm: None }
+    }
+
+    /// Makes one run in `arena`, which is scene number `scene`; not judged yet.
+    pub fn run(&mut self, scene: usize, arena: &Arena, seed: u64) -> RunRecord {
+        if !self.is_warm(scene) {
+            self.warm = Some(scene);
+            let record = self.once(scene, arena, seed);
+            if self.warm.is_none() {
+                return record;
+            }
+        }
+        self.once(scene, arena, seed)
+    }
+
+    fn is_warm(&self, scene: usize) -> bool {
+        match self.entry.maker {
+            Maker::Catalogue(_) => self.warm == Some(scene),
+            Maker::External(_) => self.warm.is_some(),
+        }
+    }
+
+    fn once(&mut self, scene: usize, arena: &Arena, seed: u64) -> RunRecord {
+        let entry = self.entry;
+        match &mut self.place {
+            Place::Here(here) => {
+                let Here { planner, plan, recorder } = here.as_mut();
+                let (record, broken) =
+                    runner::run_once(planner.as_mut(), &entry.label, &entry.budget, arena, seed, plan, recorder);
+                if broken && let Some(fresh) = entry.instance() {
+                    // Its state is anyone's guess.
+                    *planner = fresh;
+                }
+                record
+            }
+            Place::Apart(apart) => {
+                let mut record = RunRecord::empty(&arena.scene.name, &entry.label, 0, seed);
+                if let Err(failure) = apart.ask(entry, scene, arena, &mut record) {
+                    (record.status, record.error) = (failure.status, Some(failure.error));
+                    record.time_us = failure.time_us;
+                    apart.process = None;
+                    self.warm = None;
+                }
+                record
+            }
+        }
+    }
+}
+
+impl Apart {
+    /// Has the run that `record` names made, and writes into it what comes of it.
+    fn ask(
+        &mut self,
+        entry: &PlannerEntry,
+        scene: usize,
+        arena: &Arena,
+        record: &mut RunRecord,
+    ) -> Result<(), Failure> {
+        let bounds = Bounds { time: entry.hard_limit(), memory_mb: entry.limits.memory_mb };
+        if bounds.memory_mb.is_some() && !cfg!(target_os = "linux") {
+            let error = "memory_mb: only Linux tells how much memory a process holds".to_owned();
+            return Err(Failure { status: RunStatus::Error, error, time_us: 0.0 });
+        }
+        let process = match &mut self.process {
+            Some(process) => process,
+            None => self.process.insert(start(entry)?),
+        };
+        let began = std::time::Instant::now();
+        if self.scene.as_ref().is_none_or(|(known, _)| *known != scene) {
+            self.scene = Some((scene, raw(&arena.scene)));
+        }
+        let Some((_, text)) = &self.scene else { unreachable!("set above") };
+        self.last_id += 1;
+        let external = matches!(entry.maker, Maker::External(_));
+        let request = Request {
+            protocol: VERSION,
+            id: self.last_id,
+            kind: (!external).then(|| entry.kind.clone()),
+            scene: text,
+            settings: Some(&self.settings),
+            seed: record.seed,
+            budget: entry.budget,
+        };
+        let mut line = serde_json::to_vec(&request).expect("finite numbers and text");
+        line.push(b'\n');
+        let (line, round_trip) = process.ask(line, bounds)?;
+        let answer = Answer::read(&line, self.last_id).map_err(|fault| Failure {
+            status: RunStatus::Error,
+            error: format!("{fault}; expected {EXPECTED}; it said {}", beginning(&line)),
+            time_us: round_trip,
+        })?;
+        answer.tell(record);
+        if external {
+            record.time_us = round_trip;
+        } else {
+            record.overhead_us = Some(micros(began) - record.time_us);
+        }
+        Ok(())
+    }
+}
+
+fn start(entry: &PlannerEntry) -> Result<Process, Failure> {
+    let process = match &entry.maker {
+        Maker::External(external) => {
+            let (program, arguments) = external.command.split_first().expect("checked when it was read");
+            Process::start(program, arguments, &external.folder)
+        }
+        Maker::Catalogue(_) => {
+            tether::own_program().and_then(|own| Process::start(own, &[OsString::from("worker")], Path::new(".")))
+        }
+    };
+    process.map_err(|e| {
+        let what = match &entry.maker {
+            Maker::External(external) => format!("{:?} in {}", external.command, external.folder.display()),
+            Maker::Catalogue(_) => "touchline worker".to_owned(),
+        };
+        Failure { status: RunStatus::Crashed, error: format!("cannot start {what}: {e}"), time_us: 0.0 }
+    })
+}
+
+fn raw(value: &impl serde::Serialize) -> Box<RawValue> {
+    serde_json::value::to_raw_value(value).expect("plain data with string keys")
+}
+
+/// TOML as JSON; what JSON lacks (dates, NaN, infinity) as text.
+fn json(value: &toml::Value) -> serde_json::Value {
+    match value {
+        toml::Value::String(text) => text.as_str().into(),
+        toml::Value::Integer(n) => (*n).into(),
+        toml::Value::Float(x) if x.is_finite() => (*x).into(),
+        toml::Value::Boolean(b) => (*b).into(),
+        toml::Value::Array(values) => values.iter().map(json).collect(),
+        toml::Value::Table(table) => table.iter().map(|(key, value)| (key.clone(), json(value))).collect(),
+        other => other.to_string().into(),
+    }
+}
+
+/// The first characters of what came, for messages.
+fn beginning(line: &[u8]) -> String {
+    const MOST: usize = 120;
+    let text = String::from_utf8_lossy(&line[..line.len().min(4 * MOST)]);
+    let text = text.trim();
+    match text.char_indices().nth(MOST) {
+        Some((end, _)) => format!("{:?} …", &text[..end]),
+        None => format!("{text:?}"),
+    }
+}
