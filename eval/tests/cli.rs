@@ -189,7 +189,6 @@ fn what_is_to_come_says_so() {
     let place = furnished("not-yet");
     for args in [
         &["compare", "a", "b"][..],
-        &["worker"],
         &["report", "out", "--format", "ompl"],
         &["report", "out", "--format", "csv,ioh"],
     ] {

@@ -171,7 +171,7 @@ impl Process {
         true
     }
 
-    /// Most resident memory so far, MiB, while it lives. `VmHWM` of proc_pid_status(5).
+    /// Most resident memory so far, MiB, while it lives. `VmHWM` of `proc_pid_status(5)`.
     fn peak_mib(&self) -> Option<f64> {
         let status = std::fs::read_to_string(format!("/proc/{}/status", self.child.id())).ok()?;
         let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
