@@ -54,9 +54,6 @@ pub enum Error {
     /// A command line that makes no sense.
     #[error("{0}")]
     Usage(String),
-    /// Something that the design promises and this version lacks.
-    #[error("not yet: {0}")]
-    NotYet(String),
 }
 
 /// What to do first about an interruption.

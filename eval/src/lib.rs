@@ -3,6 +3,7 @@
 pub mod analysis;
 pub mod campaign;
 pub mod cli;
+pub mod compare;
 pub mod config;
 pub mod differences;
 pub mod error;

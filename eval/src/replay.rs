@@ -14,7 +14,7 @@ use planner_api::{Budget, Frame, Observer, Plan, PopulationView, Run, View};
 use crate::campaign::{Arena, Campaign};
 use crate::config::PlannerEntry;
 use crate::report::FULL;
-use crate::results::RunRecord;
+use crate::results::{RunRecord, RunStatus};
 use crate::snapshot::{MOST_GENERATIONS, Ruler, Snapshot, has_state, state};
 use crate::statistics::quantile;
 
@@ -36,12 +36,16 @@ pub fn snapshots(campaign: &Campaign, runs: &[RunRecord]) -> Vec<Snapshot> {
 }
 
 /// The run whose length is nearest to the median of the valid ones (the earliest of several);
-/// without valid runs the first.
+/// without valid runs the first that did not end its process: here it would end the bench.
 fn typical<'r>(runs: &[&'r RunRecord]) -> Option<&'r RunRecord> {
+    use RunStatus::{Crashed, OutOfMemory, Timeout};
     let valid: Vec<(&RunRecord, f64)> =
         runs.iter().filter(|r| r.valid).filter_map(|r| r.length.map(|l| (*r, l))).collect();
     let lengths: Vec<f64> = valid.iter().map(|(_, length)| *length).collect();
-    let Some(median) = quantile(&lengths, 0.5) else { return runs.first().copied() };
+    let Some(median) = quantile(&lengths, 0.5) else {
+        let fatal = |run: &RunRecord| matches!(run.status, Crashed | Timeout | OutOfMemory);
+        return runs.iter().copied().find(|run| !fatal(run));
+    };
     valid.into_iter().min_by(|(_, a), (_, b)| (a - median).abs().total_cmp(&(b - median).abs())).map(|(run, _)| run)
 }
 

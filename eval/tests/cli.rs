@@ -185,15 +185,8 @@ fn bad_input_is_refused_and_nothing_written() {
 }
 
 #[test]
-fn what_is_to_come_says_so() {
-    let place = furnished("not-yet");
-    for args in [
-        &["compare", "a", "b"][..],
-        &["report", "out", "--format", "ompl"],
-        &["report", "out", "--format", "csv,ioh"],
-    ] {
-        place.refused(args, "error: not yet: ");
-    }
+fn an_external_planner_needs_a_command() {
+    let place = furnished("external");
     place.write("external.toml", "name = \"e\"\nscenes = [\"one.toml\"]\n[planner.mine]\nkind = \"external\"");
     place.refused(&["run", "external.toml"], "external.toml:4:8: an external planner without command");
 }

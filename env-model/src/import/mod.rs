@@ -1,4 +1,5 @@
-//! Scenes from match logs: `RoboCup` 2D ([`rcg`]) and the Small Size League ([`ssl`]).
+//! Scenes from other programs' files: match logs of `RoboCup` 2D ([`rcg`]) and the Small Size
+//! League ([`ssl`]), grid maps of the `MovingAI` benchmarks ([`movingai`]).
 //!
 //! An instant of a match becomes a scene: one robot is the start, the centre of
 //! the goal mouth it attacks (or a target) is the goal, every other robot is a
@@ -7,6 +8,7 @@
 //! with its line or byte, never a panic.
 
 mod instant;
+pub mod movingai;
 pub mod rcg;
 pub mod ssl;
 mod stream;

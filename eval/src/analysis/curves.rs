@@ -90,7 +90,8 @@ impl Curves {
     }
 }
 
-fn cost_is_length(run: &RunRecord) -> bool {
+/// Whether nothing speaks against the planner's cost being the path's length.
+pub(crate) fn cost_is_length(run: &RunRecord) -> bool {
     match (run.valid, run.cost, run.length) {
         (true, Some(cost), Some(length)) => (cost - length).abs() <= OTHER * length.abs(),
         _ => true,

@@ -7,13 +7,15 @@ use env_model::Scene;
 use toml::de::DeTable;
 
 use super::{CheckArgs, say};
+use crate::campaign::Arena;
 use crate::config::{Comparison, Disk};
 use crate::error::Error;
+use crate::results::Optimum;
 
 pub(super) fn check(args: &CheckArgs) -> Result<ExitCode, Error> {
     let mut code = ExitCode::SUCCESS;
     for file in &args.files {
-        match check_one(file) {
+        match check_one(file, args.optimum) {
             Ok(what) => say(format!("ok: {}: {what}", file.display())),
             Err(error) => {
                 eprintln!("error: {error}");
@@ -24,18 +26,33 @@ pub(super) fn check(args: &CheckArgs) -> Result<ExitCode, Error> {
     Ok(code)
 }
 
-fn check_one(file: &Path) -> Result<String, Error> {
+fn check_one(file: &Path, optimum: bool) -> Result<String, Error> {
     let text = std::fs::read_to_string(file).map_err(Error::io("read", file))?;
     let path = file.display().to_string();
     if is_comparison(&text) {
         let comparison = Comparison::from_toml(&path, &text, &Disk::beside(file))?;
         let Comparison { name, repeats, scenes, planners, notes, .. } = &comparison;
         notes.iter().for_each(|note| eprintln!("note: {note}"));
+        if optimum {
+            scenes.iter().try_for_each(|entry| say_optimum(&entry.scene))?;
+        }
         Ok(format!("comparison {name}, {} planners, {} scenes, {repeats} repeats", planners.len(), scenes.len()))
     } else {
         let scene = Scene::from_toml(&path, &text)?;
+        if optimum {
+            say_optimum(&scene)?;
+        }
         Ok(format!("scene {}, {} obstacles", scene.name, scene.obstacles.len()))
     }
+}
+
+/// The exact shortest length, or why there is none.
+fn say_optimum(scene: &Scene) -> Result<(), Error> {
+    let arena = Arena::new(scene.clone()).map_err(|e| Error::Usage(e.to_string()))?;
+    let Optimum { length, reason, .. } = arena.result().optimum;
+    let found = length.map_or_else(|| reason.unwrap_or_default(), |length| format!("{length:.8} {}", scene.unit));
+    say(format!("{}: exact optimum {found}", scene.name));
+    Ok(())
 }
 
 /// A comparison is told by a key that scenes lack; what is neither is read as a scene.

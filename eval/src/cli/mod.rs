@@ -4,6 +4,7 @@
 //! for failed (`--fail-on`); 2 bad usage or input, and then nothing was written.
 
 mod check;
+mod compare;
 mod list;
 mod merge;
 mod output;
@@ -20,7 +21,6 @@ use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-use crate::error::Error;
 use crate::work::Shard;
 use crate::worker::tether;
 
@@ -38,6 +38,8 @@ Examples:
   touchline run my.toml --shard 2/3 --out part-2  the second third, say on another machine
   touchline merge part-1 part-2 part-3 --out all  one campaign of all thirds
   touchline report out                            report.html and tables again from out/runs.db
+  touchline report out --format ompl,ioh          logs for Planner Arena, a table for IOHanalyzer
+  touchline compare before after --fail-on worse  what changed, beyond noise?
 
 Exit codes: 0 done, whatever the planners achieved; 1 --fail-on found something; 2 bad usage or input.";
 
@@ -81,8 +83,8 @@ enum Command {
     /// Join the parts of a campaign that were made with --shard
     #[command(after_help = SHARDS)]
     Merge(MergeArgs),
-    /// Not yet: what changed between two campaigns
-    Compare(NotYetArgs),
+    /// What changed between two campaigns, beyond noise
+    Compare(CompareArgs),
     /// Plan for another process: requests on standard input, answers on standard output, as lines of JSON
     Worker,
     /// Become COMMAND, and end with the process PARENT
@@ -92,12 +94,6 @@ enum Command {
         #[arg(last = true, required = true)]
         command: Vec<OsString>,
     },
-}
-
-#[derive(Args)]
-struct NotYetArgs {
-    #[arg(trailing_var_arg = true, allow_hyphen_values = true, hide = true)]
-    rest: Vec<String>,
 }
 
 /// When a completed campaign counts as failed.
@@ -144,7 +140,7 @@ struct RunArgs {
     /// Only part I of N, counted from 1; `touchline merge` joins the parts
     #[arg(long, value_name = "I/N")]
     shard: Option<Shard>,
-    /// Every planner in a process of its own
+    /// Every planner in a process of its own: a crash, a hang or hunger for memory ends one run alone
     #[arg(long)]
     isolate: bool,
 }
@@ -179,11 +175,11 @@ enum Format {
     Html,
     /// runs.csv and summary.csv
     Csv,
-    /// paths.jsonl and manifest.json
+    /// paths.jsonl, manifest.json, and everything in results.json, with its schema
     Json,
-    /// Not yet: a benchmark log of OMPL
+    /// ompl/SCENE.log: logs that OMPL's statistics script reads, for Planner Arena
     Ompl,
-    /// Not yet: data for `IOHanalyzer`
+    /// ioh.csv for `IOHanalyzer`: a row an improvement, its value the gap to the optimum, 1e9 for a failed run
     Ioh,
 }
 
@@ -199,7 +195,7 @@ enum Tongue {
 struct ReportArgs {
     /// Folder of a campaign
     dir: PathBuf,
-    /// What to make; default: everything
+    /// What to make; default: html, csv, json, and the comparison with its scenes
     #[arg(long, value_name = "FORMAT", value_delimiter = ',')]
     format: Vec<Format>,
     /// Language of report.html
@@ -247,6 +243,34 @@ struct CheckArgs {
     /// Scene and comparison files
     #[arg(required = true)]
     files: Vec<PathBuf>,
+    /// Say the exact shortest length in every scene as well
+    #[arg(long)]
+    optimum: bool,
+}
+
+/// What makes `compare` fail.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Gate {
+    /// Paths are worse beyond noise, or runs are missing in NEW
+    Worse,
+    /// A planner is slower: by 10 % at least, and its interval leaves 1 out
+    Slower,
+    /// Anything but times differs, in any run
+    Changed,
+}
+
+#[derive(Args)]
+struct CompareArgs {
+    /// Folder of a campaign, or a runs.csv, in which the time columns may be missing
+    old: PathBuf,
+    /// The same, later; runs are paired by scene, planner and repeat, and must have the same seeds
+    new: PathBuf,
+    /// As JSON
+    #[arg(long)]
+    json: bool,
+    /// Exit with 1 when it is so
+    #[arg(long, value_name = "WHAT", value_delimiter = ',')]
+    fail_on: Vec<Gate>,
 }
 
 /// Parses the command line, does the work, prints errors to standard error.
@@ -261,7 +285,7 @@ pub fn main() -> ExitCode {
         Some(Command::Check(args)) => check::check(&args),
         Some(Command::Status(args)) => status::status(&args),
         Some(Command::Merge(args)) => merge::merge(&args),
-        Some(Command::Compare(args)) => not_yet("touchline compare", &args),
+        Some(Command::Compare(args)) => compare::compare(&args),
         Some(Command::Worker) => worker::worker(),
         Some(Command::Tethered { parent, command }) => Err(worker::tethered(parent, &command)),
     };
@@ -269,10 +293,6 @@ pub fn main() -> ExitCode {
         eprintln!("error: {error}");
         ExitCode::from(2)
     })
-}
-
-fn not_yet(what: &str, args: &NotYetArgs) -> Result<ExitCode, Error> {
-    Err(Error::NotYet(format!("{what} {}", args.rest.join(" ")).trim_end().to_owned()))
 }
 
 /// Prints a line to standard output; a closed pipe (`| head`) is no failure.

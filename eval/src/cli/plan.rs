@@ -12,7 +12,7 @@ use serde_json::json;
 
 use super::{PlanArgs, say};
 use crate::campaign::Arena;
-use crate::config::{self, PlannerEntry};
+use crate::config::{self, Maker, PlannerEntry};
 use crate::error::Error;
 use crate::format;
 use crate::report::svg::{PathLayer, scene_svg};
@@ -32,6 +32,10 @@ pub(super) fn plan(args: &PlanArgs) -> Result<ExitCode, Error> {
         // Places in a text that the user has not written help nobody.
         .map_err(|e| Error::Usage(format!("--planner {}: {}", args.planner, e.message)))?;
     let arena = Arena::new(scene).map_err(|e| Error::Usage(format!("{file}: {e}")))?;
+    if args.trace.is_some() && matches!(entry.maker, Maker::External(_)) {
+        let message = "--trace: an external planner shows no frames; expected a planner of the catalogue";
+        return Err(Error::Usage(message.to_owned()));
+    }
     let judge = Judge::new(&arena.scene);
     let result = arena.result();
     // It warms up first, as in the bench.

@@ -9,16 +9,18 @@ use crate::report::Language;
 use crate::store::Store;
 
 pub(super) fn report(args: &ReportArgs) -> Result<ExitCode, Error> {
-    for (format, name) in [(Format::Ompl, "ompl"), (Format::Ioh, "ioh")] {
-        if args.format.contains(&format) {
-            return Err(Error::NotYet(format!("report --format {name}")));
-        }
-    }
     let formats = if args.format.is_empty() {
-        Formats::ALL
+        Formats::OWN
     } else {
         let has = |format| args.format.contains(&format);
-        Formats { html: has(Format::Html), csv: has(Format::Csv), json: has(Format::Json), toml: false }
+        Formats {
+            html: has(Format::Html),
+            csv: has(Format::Csv),
+            json: has(Format::Json),
+            ompl: has(Format::Ompl),
+            ioh: has(Format::Ioh),
+            toml: false,
+        }
     };
     let language = match args.language {
         Tongue::En => Language::English,

@@ -123,7 +123,7 @@ fn finished(folder: &Path, quiet: bool) -> Result<Results, Error> {
 /// Makes every export from the store, as `report` does it: what is exported is what was kept.
 pub(super) fn write_exports(folder: &Path) -> Result<Results, Error> {
     let stored = Store::open(folder)?.read()?;
-    let written = export::write(folder, &stored, Formats::ALL, Language::English);
+    let written = export::write(folder, &stored, Formats::OWN, Language::English);
     written.map_err(|source| Error::Interrupted {
         source: Box::new(source),
         kept: format!("all {} runs are kept in {}", stored.results.runs.len(), folder.display()),

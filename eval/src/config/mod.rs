@@ -20,10 +20,12 @@
 //!
 //! Paths are relative to the file. Scenes also come from match logs, see [`env_model::import`]:
 //! `{ rcg = "game.rcg.gz", cycles = [120, 480], side = "left" }` and
-//! `{ ssl-log = "game.log.gz", frames = [10], team = "blue", robot = 3 }`.
+//! `{ ssl-log = "game.log.gz", frames = [10], team = "blue", robot = 3 }`; and from grid maps, see
+//! [`env_model::import::movingai`]: `{ movingai = "arena.map.scen", buckets = [0, 3], count = 10 }`.
 
 mod files;
 mod logs;
+mod movingai;
 mod planners;
 mod scenes;
 mod sweep;

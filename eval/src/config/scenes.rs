@@ -1,4 +1,4 @@
-//! The `scenes` of a comparison: files, generators, match logs.
+//! The `scenes` of a comparison: files, generators, match logs, grid maps.
 
 use env_model::generate::{Generator, Request};
 use env_model::source::Source;
@@ -7,12 +7,13 @@ use serde::Deserialize;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::{Files, SceneEntry, from_table, logs};
+use super::{Files, SceneEntry, from_table, logs, movingai};
 use crate::results::SceneSet;
 
 const EXPECTED: &str = "a path or { generate = \"wall\", count = 20, obstacles = 21, seed = 2 }, \
     { rcg = \"game.rcg.gz\", cycles = [120], side = \"left\" }, \
-    { ssl-log = \"game.log.gz\", frames = [10], team = \"blue\", robot = 3 }";
+    { ssl-log = \"game.log.gz\", frames = [10], team = \"blue\", robot = 3 }, \
+    { movingai = \"arena.map.scen\", count = 10 }";
 /// More would be a slip of the pen.
 const MOST: u32 = 100_000;
 
@@ -68,8 +69,13 @@ fn read_set(
                         imported.scenes
                     }
                     None if table.get_ref().contains_key("generate") => generated(source, table)?,
+                    None if table.get_ref().contains_key("movingai") => {
+                        let (imported, more) = movingai::read(source, table, files)?;
+                        notes.extend(more);
+                        imported
+                    }
                     None => {
-                        let message = format!("neither generate nor rcg nor ssl-log; expected {EXPECTED}");
+                        let message = format!("none of generate, rcg, ssl-log and movingai; expected {EXPECTED}");
                         return Err(source.error_at(span, message));
                     }
                 }

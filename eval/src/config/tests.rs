@@ -199,7 +199,12 @@ fn mistakes_with_logs_are_named_with_their_place() {
     let rcg = "{ rcg = \"logs/game.rcg\", cycles = [7], side = \"left\", target = [5, 5] }";
     let ssl = "{ ssl-log = \"data/ssl-divB-6v6-simulated.log.gz\", frames = [10], team = \"blue\", robot = 3 }";
     let cases = [
-        (rcg, "rcg = ", "rgc = ", "c.toml:2:11: neither generate nor rcg nor ssl-log; expected a path or { generate"),
+        (
+            rcg,
+            "rcg = ",
+            "rgc = ",
+            "c.toml:2:11: none of generate, rcg, ssl-log and movingai; expected a path or { generate",
+        ),
         (rcg, "logs/game.rcg", "none.rcg", "c.toml:2:19: cannot read none.rcg: no such file; expected a match log"),
         (rcg, "logs/game.rcg", "a.toml", "c.toml:2:19: a.toml:1: begins with \"name = \\\"\"; expected ULG4"),
         (rcg, "logs/game.rcg", "cut.rcg.gz", "c.toml:2:19: cut.rcg.gz:3: the line is cut short"),

@@ -160,7 +160,7 @@ impl Process {
         String::from_utf8_lossy(&[a, b].concat()).trim().to_owned()
     }
 
-    fn dies_within(&self, time: Duration) -> bool {
+    fn dies_within(&mut self, time: Duration) -> bool {
         let began = Instant::now();
         while !self.is_dead() {
             if began.elapsed() >= time {
@@ -181,15 +181,15 @@ impl Process {
 
     /// Whether it has ended by itself. Does not reap it, so that its group keeps its number.
     #[cfg(unix)]
-    fn is_dead(&self) -> bool {
+    fn is_dead(&mut self) -> bool {
         use rustix::process::{Pid, WaitId, WaitIdOptions, waitid};
         let look = WaitIdOptions::EXITED | WaitIdOptions::NOHANG | WaitIdOptions::NOWAIT;
         self.ended.is_some() || !matches!(waitid(WaitId::Pid(Pid::from_child(&self.child)), look), Ok(None))
     }
 
     #[cfg(not(unix))]
-    fn is_dead(&self) -> bool {
-        // Nothing here looks without reaping.
+    fn is_dead(&mut self) -> bool {
+        self.ended = self.ended.or_else(|| self.child.try_wait().ok().flatten());
         self.ended.is_some()
     }
 

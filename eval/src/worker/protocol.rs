@@ -182,3 +182,72 @@ impl Answer {
         record.progress = better.map(|(evaluations, time_us, cost)| Progress { evaluations, time_us, cost }).collect();
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_run_comes_back_as_it_was() {
+        let mut run = RunRecord::empty("scene", "planner", 0, 7);
+        run.status = RunStatus::BudgetSpent;
+        // Numbers that only the shortest round-tripping decimal keeps, and the sign of zero.
+        run.path = vec![Point::new(0.1 + 0.2, -0.0), Point::new(5e-324, 1.797_693_134_862_315_7e308)];
+        (run.iterations, run.evaluations, run.collision_checks) = (3, u64::MAX, 5);
+        (run.time_us, run.cpu_us, run.cost) = (1.001, 0.999, Some(1.0 / 3.0));
+        run.terms = vec![("risk".to_owned(), 0.1)];
+        run.progress = vec![
+            Progress { evaluations: 1, time_us: 0.1, cost: 2.0 / 3.0 },
+            Progress { evaluations: 1, time_us: 0.1, cost: 1.0 / 3.0 },
+        ];
+        let line = serde_json::to_vec(&Answer::of_run(4, run.clone())).unwrap();
+        let mut back = RunRecord::empty("scene", "planner", 0, 7);
+        Answer::read(&line, 4).unwrap().tell(&mut back);
+        assert_eq!(back, run);
+        assert!(back.path[0].y.is_sign_negative());
+    }
+
+    #[test]
+    fn an_error_keeps_its_counters() {
+        let mut run = RunRecord::empty("scene", "planner", 0, 7);
+        (run.error, run.iterations, run.time_us) = (Some("point 1 of the path is not finite".to_owned()), 3, 2.5);
+        let line = serde_json::to_string(&Answer::of_run(4, run.clone())).unwrap();
+        let expected = r#"{"id":4,"error":"point 1 of the path is not finite","iterations":3,"time_us":2.5}"#;
+        assert_eq!(line, expected);
+        let mut back = RunRecord::empty("scene", "planner", 0, 7);
+        Answer::read(line.as_bytes(), 4).unwrap().tell(&mut back);
+        assert_eq!(back, run);
+    }
+
+    #[test]
+    fn nonsense_is_named() {
+        let cases = [
+            ("", "EOF"),
+            ("{\"id\":1", "EOF"),
+            ("7", "invalid type: integer `7`"),
+            (r#"{"status":"solved","path":[]}"#, "no id in answer to request 1"),
+            (r#"{"id":2,"status":"solved","path":[]}"#, "id 2 in answer to request 1"),
+            (r#"{"id":-1,"error":""}"#, "invalid value: integer `-1`"),
+            (r#"{"id":1,"status":"crashed"}"#, "unknown variant `crashed`"),
+            (r#"{"id":1,"status":"solved"}"#, "status solved without path"),
+            (r#"{"id":1,"status":"solved","path":null}"#, "status solved without path"),
+            (r#"{"id":1}"#, "neither status nor error"),
+            (r#"{"id":1,"status":"solved","path":[[0,1e999]]}"#, "number out of range"),
+            (r#"{"id":1,"status":"solved","path":[[0]]}"#, "invalid length 1"),
+            (r#"{"id":1,"status":"solved","path":[0,1]}"#, "invalid type: integer `0`"),
+            (r#"{"id":1,"status":"solved","path":[],"evaluations":1.5}"#, "invalid type: floating point"),
+            (
+                r#"{"id":1,"status":"solved","path":[],"progress":[[2,1,9],[1,2,8]]}"#,
+                "progress whose evaluations or times",
+            ),
+            (
+                r#"{"id":1,"status":"solved","path":[],"progress":[[1,2,9],[1,1,8]]}"#,
+                "progress whose evaluations or times",
+            ),
+        ];
+        for (line, expected) in cases {
+            let fault = Answer::read(line.as_bytes(), 1).unwrap_err();
+            assert!(fault.contains(expected), "{line}: {fault}");
+        }
+    }
+}

@@ -205,3 +205,22 @@ fn beginning(line: &[u8]) -> String {
         None => format!("{text:?}"),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settings_keep_their_types() {
+        let table = "a = 1\nb = 1.0\nc = [inf, nan, 0.1]\nd = 2012-05-01\ne = { f = \"x\", g = true }".parse().unwrap();
+        let expected = r#"{"a":1,"b":1.0,"c":["inf","nan",0.1],"d":"2012-05-01","e":{"f":"x","g":true}}"#;
+        assert_eq!(json(&toml::Value::Table(table)).to_string(), expected);
+    }
+
+    #[test]
+    fn what_came_is_shown_in_part() {
+        assert_eq!(beginning(b" hello\x07 \n"), "\"hello\\u{7}\"");
+        assert_eq!(beginning("é".repeat(500).as_bytes()), format!("\"{}\" …", "é".repeat(120)));
+        assert_eq!(beginning(&[0xff, b'a']), "\"\u{fffd}a\"");
+    }
+}
