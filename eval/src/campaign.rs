@@ -1,13 +1,16 @@
 //! A comparison made ready to run: worlds compiled, optima known, identity fixed.
 
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use env_model::{Scene, SceneError, World};
 use planner_api::{PlanError, Problem};
 
-use crate::config::{BudgetSpec, Comparison, SceneEntry};
+use crate::config::{BudgetSpec, Comparison, Maker, SceneEntry};
 use crate::results::{Optimum, PlannerInfo, Results, SceneResult, SceneSet};
 use crate::seeds::fnv1a_128;
+use crate::store::Stored;
 use crate::{machine, optimum};
 
 /// A scene of a campaign.
@@ -55,6 +58,10 @@ pub fn micros(began: Instant) -> f64 {
     began.elapsed().as_nanos() as f64 / 1000.0
 }
 
+fn absolute(folder: &Path) -> PathBuf {
+    std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned())
+}
+
 /// A comparison ready to run.
 pub struct Campaign {
     /// What is compared.
@@ -90,21 +97,42 @@ impl Campaign {
     pub fn size(&self, jobs: usize) -> String {
         let Comparison { name, seed, repeats, planners, .. } = &self.comparison;
         let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
-        let mut line = format!(
+        format!(
             "{name}: {} × {} × {} = {}, seed {seed}, {}",
             count(planners.len(), "planner"),
             count(self.arenas.len(), "scene"),
             count(*repeats as usize, "repeat"),
             count(self.run_count(), "run"),
             count(jobs, "job"),
-        );
-        let limits: Option<Vec<f64>> = planners.iter().map(|p| p.budget.time_ms).collect();
-        if let Some(limits) = limits {
-            let runs = f64::from(*repeats) + jobs as f64; // a warm-up for each job
-            let worst = limits.iter().sum::<f64>() * 1e-3 * self.arenas.len() as f64 * runs / jobs as f64;
-            line.push_str(&format!(", at most about {worst:.0} s"));
+        )
+    }
+
+    /// What a store keeps of it before the first run; `results` are [`Campaign::empty_results`].
+    pub fn stored(&self, results: &Results) -> Stored {
+        let folder = self.comparison.planners.iter().find_map(|planner| match &planner.maker {
+            Maker::External(external) => Some(&external.folder),
+            Maker::Catalogue(_) => None,
+        });
+        Stored {
+            results: Results { runs: Vec::new(), snapshots: Vec::new(), ..results.clone() },
+            comparison: self.comparison.to_toml(),
+            scene_files: self.comparison.scene_files(),
+            compile_us: self.arenas.iter().map(|arena| arena.compile_us).collect(),
+            folder: folder.map(|folder| absolute(folder).display().to_string()),
         }
-        line
+    }
+
+    /// Which of its runs are among `keys`, as [`Store::keys`](crate::store::Store::keys) names them.
+    pub fn done(&self, keys: &BTreeSet<(String, String, u32)>) -> BTreeSet<(usize, usize, u32)> {
+        let place = |names: Vec<&str>| -> BTreeMap<String, usize> {
+            names.iter().enumerate().map(|(i, name)| ((*name).to_owned(), i)).collect()
+        };
+        let scenes = place(self.arenas.iter().map(|arena| arena.scene.name.as_str()).collect());
+        let planners = place(self.comparison.planners.iter().map(|entry| entry.label.as_str()).collect());
+        let of = |(scene, planner, repeat): &(String, String, u32)| {
+            Some((*scenes.get(scene)?, *planners.get(planner)?, *repeat))
+        };
+        keys.iter().filter_map(of).collect()
     }
 
     /// The results before the first run: everything but runs.

@@ -1,8 +1,10 @@
 //! What can go wrong in the bench itself.
 
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use env_model::FileError;
+use rusqlite::ErrorCode;
 
 /// Why a command could not do its work. Planners that fail are results, not errors.
 #[derive(Debug, thiserror::Error)]
@@ -37,12 +39,33 @@ pub enum Error {
         /// What is the matter and what was expected.
         message: String,
     },
+    /// A campaign that cannot go on now.
+    #[error("{source}\n{kept}; {}, then {what} with: {command}", remedy(source))]
+    Interrupted {
+        /// Why.
+        source: Box<Self>,
+        /// What is safe: "12 of 40 runs are kept in out".
+        kept: String,
+        /// "go on" or "make the exports".
+        what: &'static str,
+        /// What does it.
+        command: String,
+    },
     /// A command line that makes no sense.
     #[error("{0}")]
     Usage(String),
-    /// Something that the design promises and this version lacks.
-    #[error("not yet: {0}")]
-    NotYet(String),
+}
+
+/// What to do first about an interruption.
+fn remedy(error: &Error) -> &'static str {
+    let full = match error {
+        Error::Io { source, .. } => {
+            matches!(source.kind(), ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge)
+        }
+        Error::Store { source, .. } => source.sqlite_error_code() == Some(ErrorCode::DiskFull),
+        _ => false,
+    };
+    if full { "free some space" } else { "mend that" }
 }
 
 impl Error {

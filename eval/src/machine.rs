@@ -27,7 +27,12 @@ fn cpu() -> Option<String> {
 
 /// The time now, RFC 3339, UTC, to the second.
 pub fn now() -> String {
-    rfc3339(SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |d| d.as_secs()))
+    after(0)
+}
+
+/// The time so many seconds from now, as [`now`].
+pub fn after(seconds: u64) -> String {
+    rfc3339(SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |d| d.as_secs()).saturating_add(seconds))
 }
 
 /// Seconds since 1970 as RFC 3339 in UTC, in the Gregorian calendar. Hinnant,

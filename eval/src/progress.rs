@@ -18,7 +18,9 @@ pub enum Progress {
     Lines {
         /// Runs in all.
         total: usize,
-        /// Runs so far.
+        /// Runs that were there before.
+        before: usize,
+        /// Runs so far, those included.
         done: usize,
         /// When it began.
         began: Instant,
@@ -28,18 +30,20 @@ pub enum Progress {
 }
 
 impl Progress {
-    /// For `total` runs.
-    pub fn new(total: usize, quiet: bool) -> Self {
+    /// For `total` runs, of which `done` are there already.
+    pub fn new(total: usize, done: usize, quiet: bool) -> Self {
         let now = Instant::now();
         if quiet {
             return Self::Quiet;
         }
         if !std::io::stderr().is_terminal() {
-            return Self::Lines { total, done: 0, began: now, spoke: now };
+            return Self::Lines { total, before: done, done, began: now, spoke: now };
         }
         let style = ProgressStyle::with_template("{bar:40} {pos}/{len} runs, {elapsed} gone, {eta} left")
             .unwrap_or_else(|_| ProgressStyle::default_bar());
-        Self::Bar(ProgressBar::new(total as u64).with_style(style))
+        let bar = ProgressBar::new(total as u64).with_style(style).with_position(done as u64);
+        bar.reset_eta();
+        Self::Bar(bar)
     }
 
     /// One more run is done.
@@ -47,12 +51,12 @@ impl Progress {
         match self {
             Self::Quiet => {}
             Self::Bar(bar) => bar.inc(1),
-            Self::Lines { total, done, began, spoke } => {
+            Self::Lines { total, before, done, began, spoke } => {
                 *done += 1;
                 if spoke.elapsed() >= PAUSE && done < total {
                     *spoke = Instant::now();
                     let gone = began.elapsed().as_secs_f64();
-                    let left = gone / *done as f64 * (*total - *done) as f64;
+                    let left = gone / (*done - *before) as f64 * (*total - *done) as f64;
                     eprintln!("{done}/{total} runs, {gone:.0} s gone, about {left:.0} s left");
                 }
             }

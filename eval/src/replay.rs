@@ -26,7 +26,8 @@ pub fn snapshots(campaign: &Campaign, runs: &[RunRecord]) -> Vec<Snapshot> {
         for entry in &campaign.comparison.planners {
             let of: Vec<&RunRecord> =
                 runs.iter().filter(|r| r.scene == arena.scene.name && r.planner == entry.label).collect();
-            if let Some(run) = typical(&of) {
+            // What ended its own process would end this one too.
+            if let Some(run) = typical(&of).filter(|run| !run.status.is_killed()) {
                 all.extend(of_run(entry, arena, run));
             }
         }

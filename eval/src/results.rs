@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::config::BudgetSpec;
 use crate::snapshot::Snapshot;
+use crate::work::Shard;
 
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -53,6 +54,11 @@ impl RunStatus {
             Self::Timeout => "timeout",
             Self::OutOfMemory => "out_of_memory",
         }
+    }
+
+    /// Whether its process came to an end with it.
+    pub fn is_killed(self) -> bool {
+        matches!(self, Self::Crashed | Self::Timeout | Self::OutOfMemory)
     }
 
     /// The status of that name.
@@ -270,6 +276,31 @@ pub struct Manifest {
     /// The shards that were merged into this campaign, each with its machine and times.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub shards: Vec<Manifest>,
+    /// The stretches in which its runs were made, the earliest first; empty for merged campaigns and older ones.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub sessions: Vec<Session>,
+}
+
+/// From a start to its end or interruption.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Session {
+    /// When it began, RFC 3339, UTC.
+    pub started: String,
+    /// When it ended; empty where it was interrupted, or lasts.
+    pub finished: String,
+    /// How many runs were there before it.
+    pub runs_before: usize,
+    /// Threads that ran planners.
+    pub jobs: usize,
+    /// Whether every planner ran in a process of its own.
+    pub isolated: bool,
+}
+
+impl Manifest {
+    /// The part of the campaign that is to be made.
+    pub fn part(&self) -> Shard {
+        self.shard.parse().unwrap_or(Shard::WHOLE)
+    }
 }
 
 /// A whole campaign.
@@ -294,6 +325,12 @@ pub struct Results {
 }
 
 impl Results {
+    /// How many runs it has when it is complete; of a shard, when that is.
+    pub fn planned(&self) -> usize {
+        let units = self.scenes.len().saturating_mul(self.repeats as usize);
+        self.manifest.part().size(units).saturating_mul(self.planners.len())
+    }
+
     /// The runs of one planner, over one scene or (`None`) all of them.
     pub fn runs_of<'a>(&'a self, planner: &'a str, scene: Option<&'a str>) -> impl Iterator<Item = &'a RunRecord> {
         self.runs.iter().filter(move |r| r.planner == planner && scene.is_none_or(|s| r.scene == s))

@@ -24,18 +24,15 @@ use crate::work::Work;
 use crate::worker::Seat;
 use crate::{metrics, seeds};
 
-/// Makes the runs of `work` and hands each to `sink` on the calling thread, in no particular order. `optima` are the scenes' optimal lengths. Ends early with the sink's error.
+/// Makes the runs of `work` and hands each to `sink` on the calling thread, in no particular order. `optima` are the
+/// scenes' optimal lengths. Ends early with the sink's error.
 pub fn run<E>(
     campaign: &Campaign,
     optima: &[Option<f64>],
     work: &Work,
     mut sink: impl FnMut(RunRecord) -> Result<(), E>,
 ) -> Result<(), E> {
-    let repeats = campaign.comparison.repeats as usize;
-    let units: Vec<(usize, u32)> = (0..campaign.arenas.len() * repeats)
-        .filter(|unit| work.shard.has(*unit))
-        .map(|unit| (unit / repeats, (unit % repeats) as u32))
-        .collect();
+    let units: Vec<(usize, u32)> = work.shard.units(campaign.arenas.len(), campaign.comparison.repeats).collect();
     if work.jobs == 1 {
         let mut worker = Worker::new(campaign, optima, work);
         return units.iter().try_for_each(|(scene, repeat)| worker.unit(*scene, *repeat, &mut sink));

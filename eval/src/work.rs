@@ -16,9 +16,41 @@ impl Shard {
     /// All of a campaign.
     pub const WHOLE: Self = Self { index: 1, count: 1 };
 
+    /// All N parts of a campaign.
+    pub fn all(count: u32) -> impl Iterator<Item = Self> {
+        (1..=count).map(move |index| Self { index, count })
+    }
+
     /// Whether unit number `unit`, counted from 0, belongs to it.
     pub fn has(self, unit: usize) -> bool {
         unit % self.count as usize == self.index as usize - 1
+    }
+
+    /// Its units as (place of the scene, repeat), in the order in which they are made.
+    pub fn units(self, scenes: usize, repeats: u32) -> impl Iterator<Item = (usize, u32)> {
+        let all = (0..scenes).flat_map(move |scene| (0..repeats).map(move |repeat| (scene, repeat)));
+        all.enumerate().filter(move |(unit, _)| self.has(*unit)).map(|(_, unit)| unit)
+    }
+
+    /// How many of a campaign's `units` units it has.
+    pub fn size(self, units: usize) -> usize {
+        let (index, count) = (self.index as usize, self.count as usize);
+        units / count + usize::from(index <= units % count)
+    }
+
+    /// Number I, from 1.
+    pub fn index(self) -> u32 {
+        self.index
+    }
+
+    /// Number N.
+    pub fn count(self) -> u32 {
+        self.count
+    }
+
+    /// What a manifest calls it: nothing for all of the campaign.
+    pub fn name(self) -> String {
+        if self.is_whole() { String::new() } else { self.to_string() }
     }
 
     /// Whether it is all of the campaign.
@@ -75,7 +107,12 @@ mod tests {
         for unit in 0..20 {
             assert_eq!(shards.iter().filter(|s| s.has(unit)).count(), 1);
         }
+        for units in 0..20 {
+            let size = |s: &Shard| s.size(units);
+            assert!(shards.iter().all(|s| size(s) == s.units(1, units as u32).count()), "{units}");
+        }
         assert_eq!(shards[1].to_string(), "2/3");
+        assert_eq!(shards[1].units(2, 4).collect::<Vec<_>>(), [(0, 1), (1, 0), (1, 3)]);
         for wrong in ["0/3", "4/3", "1", "a/b", "1/0", "-1/2", ""] {
             assert!(wrong.parse::<Shard>().is_err(), "{wrong}");
         }

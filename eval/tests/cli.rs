@@ -1,100 +1,11 @@
 //! The command line as its users meet it: exit codes, messages, files.
 
+mod common;
+
 use std::fs;
-use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-/// A folder of its own for each test, gone afterwards.
-struct Place(PathBuf);
-
-impl Place {
-    fn new(name: &str) -> Self {
-        let folder = std::env::temp_dir().join(format!("touchline-cli-{}-{name}", std::process::id()));
-        let _ = fs::remove_dir_all(&folder);
-        fs::create_dir_all(&folder).unwrap();
-        Self(folder)
-    }
-
-    fn run(&self, args: &[&str]) -> Output {
-        Command::new(env!("CARGO_BIN_EXE_touchline")).args(args).current_dir(&self.0).output().unwrap()
-    }
-
-    fn write(&self, name: &str, text: &str) {
-        fs::write(self.0.join(name), text).unwrap();
-    }
-
-    fn read(&self, name: &str) -> String {
-        fs::read_to_string(self.0.join(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
-    }
-
-    /// Every file below, sorted.
-    fn files(&self) -> Vec<String> {
-        fn walk(folder: &Path, root: &Path, files: &mut Vec<String>) {
-            for entry in fs::read_dir(folder).unwrap() {
-                let path = entry.unwrap().path();
-                files.push(path.strip_prefix(root).unwrap().display().to_string());
-                if path.is_dir() {
-                    walk(&path, root, files);
-                }
-            }
-        }
-        let mut files = Vec::new();
-        walk(&self.0, &self.0, &mut files);
-        files.sort();
-        files
-    }
-
-    fn ok(&self, args: &[&str]) -> String {
-        let output = self.run(args);
-        assert!(output.status.success(), "{args:?}: {}", text(&output.stderr));
-        text(&output.stdout)
-    }
-
-    /// Expects exit code 2, `message` on standard error and no new file.
-    fn refused(&self, args: &[&str], message: &str) {
-        let before = self.files();
-        let output = self.run(args);
-        let error = text(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{args:?}: {error}");
-        assert!(error.contains(message), "{args:?}:\n{error}\nexpected: {message}");
-        assert_eq!(self.files(), before, "{args:?} wrote something");
-    }
-}
-
-impl Drop for Place {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
-    }
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
-}
-
-const SCENE: &str = "name = \"one\"\nunit = \"cm\"\nstart = [0.0, 0.0]\ngoal = [10.0, 0.0]\n
-[[obstacle]]\ndisc = { centre = [5.0, 0.5], radius = 1.0 }\n";
-const COMPARISON: &str = "name = \"small\"\nrepeats = 3\nscenes = [\"one.toml\"]\n
-[planner.straight-line]\n[planner.pso]\niterations = 20\n[planner.tangent]\n";
-
-fn furnished(name: &str) -> Place {
-    let place = Place::new(name);
-    place.write("one.toml", SCENE);
-    place.write("small.toml", COMPARISON);
-    place
-}
-
-/// `runs.csv` without its time columns.
-fn timeless(csv: &str) -> String {
-    let mut reader = csv::Reader::from_reader(csv.as_bytes());
-    let keep: Vec<bool> = reader.headers().unwrap().iter().map(|h| h != "time_us" && h != "cpu_us").collect();
-    assert_eq!(keep.iter().filter(|k| !**k).count(), 2);
-    let rows = reader.records().map(|row| {
-        let row = row.unwrap();
-        let cells: Vec<&str> = row.iter().zip(&keep).filter(|(_, k)| **k).map(|(c, _)| c).collect();
-        cells.join(",") + "\n"
-    });
-    rows.collect()
-}
+use common::{COMPARISON, Place, furnished, text, timeless};
 
 #[test]
 fn scenes_from_a_log_outlive_it() {
@@ -274,19 +185,8 @@ fn bad_input_is_refused_and_nothing_written() {
 }
 
 #[test]
-fn what_is_to_come_says_so() {
-    let place = furnished("not-yet");
-    for args in [
-        &["run", "small.toml", "--resume"][..],
-        &["small.toml", "--shard", "1/2"],
-        &["status", "out"],
-        &["merge", "a", "b", "--out", "c"],
-        &["compare", "a", "b"],
-        &["report", "out", "--format", "ompl"],
-        &["report", "out", "--format", "csv,ioh"],
-    ] {
-        place.refused(args, "error: not yet: ");
-    }
+fn an_external_planner_needs_a_command() {
+    let place = furnished("external");
     place.write("external.toml", "name = \"e\"\nscenes = [\"one.toml\"]\n[planner.mine]\nkind = \"external\"");
     place.refused(&["run", "external.toml"], "external.toml:4:8: an external planner without command");
 }

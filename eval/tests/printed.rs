@@ -25,7 +25,7 @@ fn folder(name: &str) -> std::path::PathBuf {
 #[test]
 fn help() {
     let here = folder("help");
-    for command in ["run", "plan", "report", "list", "check", "compare"] {
+    for command in ["run", "plan", "report", "list", "check", "status", "merge", "compare"] {
         insta::assert_snapshot!(format!("help_{command}"), printed(&here, &[command, "--help"]));
     }
     insta::assert_snapshot!("help", printed(&here, &["--help"]));

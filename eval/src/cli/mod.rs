@@ -6,10 +6,13 @@
 mod check;
 mod compare;
 mod list;
+mod merge;
 mod output;
 mod plan;
 mod report;
 mod run;
+mod session;
+mod status;
 mod worker;
 
 use std::ffi::OsString;
@@ -18,7 +21,7 @@ use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-use crate::error::Error;
+use crate::work::Shard;
 use crate::worker::tether;
 
 const EXAMPLES: &str = "\
@@ -29,12 +32,27 @@ Examples:
   touchline plan scene.toml --planner pso-qp --svg path.svg
   touchline plan scene.toml --planner pso --set particles=30 --seed 7 --trace swarm.jsonl
   touchline check configs/scenes/*.toml           is it well-formed?
+  touchline run my.toml --dry-run                 what it would run, and how long at most
+  touchline run --out out --resume                go on after an interruption, in whatever way it came
+  touchline status out                            what is done and what is missing, also while it runs
+  touchline run my.toml --shard 2/3 --out part-2  the second third, say on another machine
+  touchline merge part-1 part-2 part-3 --out all  one campaign of all thirds
   touchline report out                            report.html and tables again from out/runs.db
-
   touchline report out --format ompl,ioh          logs for Planner Arena, a table for IOHanalyzer
   touchline compare before after --fail-on worse  what changed, beyond noise?
 
 Exit codes: 0 done, whatever the planners achieved; 1 --fail-on found something; 2 bad usage or input.";
+
+const SHARDS: &str = "\
+Every part is a campaign of its own, which can be resumed; all must come from the same comparison,
+scenes and version of the program. What external planners do is no part of that: see to it that the
+same programs are everywhere. Parts that overlap, or belong to another campaign, are refused; where
+runs are missing, the result can be completed:
+
+  touchline run my.toml --shard 1/2 --out part-1      on one machine
+  touchline run my.toml --shard 2/2 --out part-2      on another
+  touchline merge part-1 part-2 --out all
+  touchline run --out all --resume                    only if merge says that runs are missing";
 
 /// Compares 2D path planners for robot soccer: every path is judged by an
 /// independent exact test and scored against the true optimum.
@@ -60,10 +78,11 @@ enum Command {
     List(ListArgs),
     /// Validate scenes and comparisons without running them
     Check(CheckArgs),
-    /// Not yet: what of a campaign is done and what is missing
-    Status(NotYetArgs),
-    /// Not yet: join shards
-    Merge(NotYetArgs),
+    /// What of a campaign is done and what is missing, also while it runs
+    Status(StatusArgs),
+    /// Join the parts of a campaign that were made with --shard
+    #[command(after_help = SHARDS)]
+    Merge(MergeArgs),
     /// What changed between two campaigns, beyond noise
     Compare(CompareArgs),
     /// Plan for another process: requests on standard input, answers on standard output, as lines of JSON
@@ -75,12 +94,6 @@ enum Command {
         #[arg(last = true, required = true)]
         command: Vec<OsString>,
     },
-}
-
-#[derive(Args)]
-struct NotYetArgs {
-    #[arg(trailing_var_arg = true, allow_hyphen_values = true, hide = true)]
-    rest: Vec<String>,
 }
 
 /// When a completed campaign counts as failed.
@@ -120,12 +133,13 @@ struct RunArgs {
     /// Exit with 1 when any run is without a valid path, or ended in an error
     #[arg(long, value_name = "WHAT")]
     fail_on: Option<FailOn>,
-    /// Not yet: go on with an interrupted campaign
+    /// Go on with the campaign in the folder: make what is missing and nothing twice; begin it where there is none.
+    /// Without COMPARISON the one that the folder holds is taken. Jobs and isolation may be others than before
     #[arg(long)]
     resume: bool,
-    /// Not yet: only part I of N, counted from 1
+    /// Only part I of N, counted from 1; `touchline merge` joins the parts
     #[arg(long, value_name = "I/N")]
-    shard: Option<String>,
+    shard: Option<Shard>,
     /// Every planner in a process of its own: a crash, a hang or hunger for memory ends one run alone
     #[arg(long)]
     isolate: bool,
@@ -189,6 +203,25 @@ struct ReportArgs {
     language: Tongue,
 }
 
+#[derive(Args)]
+struct StatusArgs {
+    /// Folder of a campaign
+    dir: PathBuf,
+    /// As JSON
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Args)]
+struct MergeArgs {
+    /// Folders of the parts
+    #[arg(required = true, value_name = "DIR")]
+    dirs: Vec<PathBuf>,
+    /// New folder for the whole campaign
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+}
+
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Listed {
     Planners,
@@ -250,8 +283,8 @@ pub fn main() -> ExitCode {
         Some(Command::Report(args)) => report::report(&args),
         Some(Command::List(args)) => list::list(&args),
         Some(Command::Check(args)) => check::check(&args),
-        Some(Command::Status(args)) => not_yet("touchline status", &args),
-        Some(Command::Merge(args)) => not_yet("touchline merge", &args),
+        Some(Command::Status(args)) => status::status(&args),
+        Some(Command::Merge(args)) => merge::merge(&args),
         Some(Command::Compare(args)) => compare::compare(&args),
         Some(Command::Worker) => worker::worker(),
         Some(Command::Tethered { parent, command }) => Err(worker::tethered(parent, &command)),
@@ -260,10 +293,6 @@ pub fn main() -> ExitCode {
         eprintln!("error: {error}");
         ExitCode::from(2)
     })
-}
-
-fn not_yet(what: &str, args: &NotYetArgs) -> Result<ExitCode, Error> {
-    Err(Error::NotYet(format!("{what} {}", args.rest.join(" ")).trim_end().to_owned()))
 }
 
 /// Prints a line to standard output; a closed pipe (`| head`) is no failure.

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use super::{Format, ReportArgs, Tongue, say};
 use crate::error::Error;
 use crate::export::{self, Formats};
-use crate::report::{self, Language};
+use crate::report::Language;
 use crate::store::Store;
 
 pub(super) fn report(args: &ReportArgs) -> Result<ExitCode, Error> {
@@ -29,7 +29,7 @@ pub(super) fn report(args: &ReportArgs) -> Result<ExitCode, Error> {
     let stored = Store::open(&args.dir)?.read()?;
     export::write(&args.dir, &stored, formats, language)?;
     let results = &stored.results;
-    let planned = report::planned(results);
+    let planned = results.planned();
     if results.runs.len() < planned {
         say(format!("{} of {planned} runs are there: the campaign did not finish", results.runs.len()));
     }

@@ -1,63 +1,86 @@
 //! `touchline run`.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
 
-use super::{FailOn, RunArgs, output, say};
+use super::output::{self, Claim, Found};
+use super::session::{self, Place};
+use super::{FailOn, RunArgs, say};
 use crate::campaign::Campaign;
 use crate::config::{Comparison, Disk, EMBEDDED_NAME, Embedded};
+use crate::differences::{Signature, differences};
 use crate::error::Error;
-use crate::export::{self, Formats};
-use crate::progress::Progress;
-use crate::report::Language;
+use crate::estimate::{self, Estimate};
 use crate::results::{Results, RunStatus};
-use crate::store::Store;
-use crate::work::Work;
-use crate::{machine, replay, runner, table};
+use crate::store::{Store, Stored};
+use crate::table;
+use crate::work::{Shard, Work};
 
 pub(super) fn run(args: &RunArgs) -> Result<ExitCode, Error> {
-    for (asked, what) in [(args.resume, "--resume"), (args.shard.is_some(), "--shard")] {
-        if asked {
-            return Err(Error::NotYet(what.to_owned()));
-        }
-    }
-    let mut comparison = read(args.comparison.as_deref())?;
-    comparison.seed = args.seed.unwrap_or(comparison.seed);
-    comparison.repeats = args.repeats.unwrap_or(comparison.repeats);
-    if !args.planner.is_empty() {
-        comparison.keep_planners(&args.planner).map_err(Error::Usage)?;
-    }
-    let campaign = Campaign::new(comparison).map_err(|e| Error::Usage(e.to_string()))?;
-    let jobs = usize::from(args.jobs);
-    let folder = output::choose(args.out.as_deref(), &campaign.comparison.name)?;
+    let campaign = campaign(args)?;
+    let mut work = Work { isolate: args.isolate, ..Work::all(usize::from(args.jobs)) };
+    work.shard = args.shard.unwrap_or(Shard::WHOLE);
+    let (folder, place) = if args.resume {
+        let folder = args.out.clone().unwrap_or_else(|| output::usual(&part_name(args, &campaign)));
+        // A dry run locks and creates nothing.
+        let found = if args.dry_run { None } else { Some(output::find(&folder)?) };
+        let kept = if Store::is_blank(&folder)? { None } else { Some(Store::open(&folder)?) };
+        let head = kept.as_ref().map(|store| going_on(&folder, store, args, &campaign, &mut work)).transpose()?;
+        let place = match (found, head) {
+            (Some(Found::Nothing(claim)), _) => Some(Place::New(claim)),
+            (Some(Found::Campaign(lock)), Some(head)) => Some(Place::Old(lock, Box::new(head))),
+            _ => None,
+        };
+        (folder, place)
+    } else {
+        (output::choose(args.out.as_deref(), &part_name(args, &campaign))?, None)
+    };
     if !args.quiet {
-        campaign.comparison.notes.iter().for_each(|note| eprintln!("note: {note}"));
-        say(campaign.size(jobs));
+        introduce(&campaign, &work);
     }
     if args.dry_run {
         if !args.quiet {
-            dry_run(&campaign, &folder);
+            describe(&campaign, &work, &folder);
         }
         return Ok(ExitCode::SUCCESS);
     }
-    let work = Work { isolate: args.isolate, ..Work::all(jobs) };
-    let (folder, results) = carry_out(&campaign, args.out.as_deref(), &work, args.quiet)?;
+    let (folder, place) = match place {
+        Some(place) => (folder, place),
+        None => {
+            let claim = Claim::new(args.out.as_deref(), &part_name(args, &campaign))?;
+            (claim.folder().to_owned(), Place::New(claim))
+        }
+    };
+    let results = session::carry_out(&campaign, &folder, place, &work, args.quiet)?;
     if !args.quiet {
         say("");
         say(table::render(&results));
-        doubts(&results, jobs);
+        doubts(&results);
         say(format!("Results: {}", folder.join("report.html").display()));
     }
     let failed = args.fail_on.is_some_and(|what| {
         results.runs.iter().any(|run| match what {
             FailOn::Invalid => !run.valid,
-            FailOn::Error => {
-                use RunStatus::{Crashed, Error, OutOfMemory, Timeout};
-                matches!(run.status, Error | Crashed | Timeout | OutOfMemory)
-            }
+            FailOn::Error => run.status == RunStatus::Error || run.status.is_killed(),
         })
     });
     Ok(ExitCode::from(u8::from(failed)))
+}
+
+/// The campaign that is asked for: of a file, of the folder in which to go on, or the embedded one.
+fn campaign(args: &RunArgs) -> Result<Campaign, Error> {
+    let mut comparison = match &args.out {
+        Some(out) if args.resume && args.comparison.is_none() && !Store::is_blank(out)? => {
+            Comparison::from_stored(&Store::open(out)?.head()?)?
+        }
+        _ => read(args.comparison.as_deref())?,
+    };
+    comparison.seed = args.seed.unwrap_or(comparison.seed);
+    comparison.repeats = args.repeats.unwrap_or(comparison.repeats);
+    if !args.planner.is_empty() {
+        comparison.keep_planners(&args.planner).map_err(Error::Usage)?;
+    }
+    Campaign::new(comparison).map_err(|e| Error::Usage(e.to_string()))
 }
 
 /// Reads a comparison file, or the embedded one.
@@ -69,45 +92,86 @@ pub(super) fn read(file: Option<&Path>) -> Result<Comparison, Error> {
     Ok(Comparison::from_toml(&file.display().to_string(), &text, &Disk::beside(file))?)
 }
 
-fn dry_run(campaign: &Campaign, folder: &Path) {
+fn part_name(args: &RunArgs, campaign: &Campaign) -> String {
+    output::part_name(&campaign.comparison.name, args.shard.unwrap_or(Shard::WHOLE))
+}
+
+/// Makes sure that `folder` holds this campaign and this part of it, and takes what is done out of `work`.
+fn going_on(
+    folder: &Path,
+    store: &Store,
+    args: &RunArgs,
+    campaign: &Campaign,
+    work: &mut Work,
+) -> Result<Stored, Error> {
+    let head = store.head()?;
+    let manifest = &head.results.manifest;
+    let foreign = |message: String| Err(Error::Foreign { path: folder.to_owned(), message });
+    if manifest.identity != campaign.identity() {
+        return foreign(format!(
+            "holds another campaign, {:?} of {} (identity {}); asked for was: {}",
+            head.results.name,
+            manifest.started,
+            manifest.identity,
+            differences(&Signature::of(campaign), &Signature::of_stored(&head))
+        ));
+    }
+    if let Some(asked) = args.shard.filter(|asked| *asked != manifest.part()) {
+        return foreign(format!("holds part {} of the campaign; asked for was part {asked}", manifest.part()));
+    }
+    work.shard = manifest.part();
+    work.done = campaign.done(&store.keys()?);
+    if !args.quiet && manifest.finished.is_empty() && manifest.jobs > work.jobs {
+        eprintln!("note: runs were made with {} jobs before: all times count as taken with as many", manifest.jobs);
+    }
+    Ok(head)
+}
+
+/// Size, part, what is there already, and how long the rest may take.
+fn introduce(campaign: &Campaign, work: &Work) {
+    campaign.comparison.notes.iter().for_each(|note| eprintln!("note: {note}"));
+    say(campaign.size(work.jobs));
+    let estimate = Estimate::new(campaign, work);
+    if !work.shard.is_whole() {
+        say(format!("Part {}: {} of these runs.", work.shard, estimate.runs + work.done.len()));
+    }
+    if !work.done.is_empty() {
+        say(format!("Going on: {} runs are there, {} are to be made.", work.done.len(), estimate.runs));
+    }
+    if estimate.runs > 0 {
+        say(format!("Time: {}.", estimate.words()));
+    }
+}
+
+fn describe(campaign: &Campaign, work: &Work, folder: &Path) {
     for planner in &campaign.comparison.planners {
-        say(format!("  planner {} (kind {})", planner.label, planner.kind));
+        let budget = match planner.budget.words() {
+            words if words.is_empty() => "no budget".to_owned(),
+            words => format!("budget {words}"),
+        };
+        let limit = match work.isolate || planner.isolated() {
+            true => format!(", ended after {}", estimate::duration(planner.hard_limit().as_secs_f64())),
+            false => String::new(),
+        };
+        say(format!("  planner {} (kind {}; {budget}{limit})", planner.label, planner.kind));
     }
     for arena in &campaign.arenas {
-        say(format!("  scene {} ({} obstacles)", arena.scene.name, arena.scene.obstacles.len()));
+        let (name, count) = (&arena.scene.name, arena.scene.obstacles.len());
+        say(format!("  scene {name} ({count} obstacles; {} set)", arena.set.name()));
     }
     say(format!("Would write to {}; nothing was run.", folder.display()));
 }
 
-fn carry_out(campaign: &Campaign, out: Option<&Path>, work: &Work, quiet: bool) -> Result<(PathBuf, Results), Error> {
-    let claim = output::Claim::new(out, &campaign.comparison.name)?;
-    let results = campaign.empty_results(work.jobs);
-    let mut store = Store::create(claim.folder(), campaign, &results)?;
-    let folder = claim.keep();
-    let optima: Vec<Option<f64>> = results.scenes.iter().map(|s| s.optimum.length).collect();
-    let mut progress = Progress::new(campaign.run_count(), quiet);
-    runner::run(campaign, &optima, work, |record| {
-        progress.step();
-        store.add(&record)
-    })?;
-    progress.finish();
-    let mut manifest = results.manifest;
-    manifest.finished = machine::now();
-    // After the last timed run, so that no picture is taken at its expense.
-    store.add_snapshots(&replay::snapshots(campaign, &store.read()?.results.runs))?;
-    store.finish(&manifest)?;
-    // From the store, as `report` does it: what is exported is what was kept.
-    let stored = store.read()?;
-    export::write(&folder, &stored, Formats::OWN, Language::English)?;
-    Ok((folder, stored.results))
-}
-
 /// What a reader of the table ought to know.
-fn doubts(results: &Results, jobs: usize) {
-    if jobs > 1 {
-        say(format!("Times were taken with {jobs} jobs at once: compare them with care."));
+fn doubts(results: &Results) {
+    let manifest = &results.manifest;
+    if !manifest.shard.is_empty() {
+        say(format!("This is part {} of the campaign; touchline merge joins the parts.", manifest.shard));
     }
-    if results.manifest.profile == "debug" {
+    if manifest.jobs > 1 {
+        say(format!("Times were taken with {} jobs at once: compare them with care.", manifest.jobs));
+    }
+    if manifest.profile == "debug" {
         say("Times are of a debug build.");
     }
     // 1e-9 is far above the rounding of a sum of a hundred lengths, and below any gap of interest.

@@ -1,7 +1,10 @@
 //! Where the scenes of a comparison are read from.
 
+use std::collections::BTreeMap;
 use std::io::{Cursor, Read};
 use std::path::{Path, PathBuf};
+
+use crate::store::Stored;
 
 /// The name of the embedded comparison.
 pub const EMBEDDED_NAME: &str = "lu-sun-2012.toml (embedded)";
@@ -79,5 +82,31 @@ impl Files for Embedded {
             }
             _ => Err(format!("no embedded file {relative}")),
         }
+    }
+}
+
+/// The scenes of a campaign that is kept, under the names that its resolved comparison gives them.
+pub struct Kept {
+    folder: PathBuf,
+    texts: BTreeMap<String, String>,
+}
+
+impl Kept {
+    /// The files of `stored`.
+    pub fn new(stored: &Stored) -> Self {
+        let scenes = stored.scene_files.iter().zip(&stored.results.scenes);
+        let texts = scenes.map(|(file, scene)| (file.clone(), scene.scene.to_toml())).collect();
+        Self { folder: stored.folder.as_deref().unwrap_or(".").into(), texts }
+    }
+}
+
+impl Files for Kept {
+    fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    fn open(&self, relative: &str) -> Result<Opened, String> {
+        let text = self.texts.get(relative).ok_or_else(|| format!("no stored scene {relative}"))?;
+        Ok((format!("{relative} (stored)"), Box::new(Cursor::new(text.clone()))))
     }
 }

@@ -42,8 +42,9 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::results::SceneSet;
+use crate::store::Stored;
 
-pub use files::{Disk, EMBEDDED_NAME, Embedded, Files, Opened};
+pub use files::{Disk, EMBEDDED_NAME, Embedded, Files, Kept, Opened};
 pub use planners::{BudgetSpec, External, Factory, Limits, Maker, PlannerEntry, from_settings, single};
 pub use scenes::refuse_motion;
 
@@ -118,6 +119,11 @@ impl Comparison {
         let sets = [(SceneSet::Test, entries.remove("scenes")), (SceneSet::Tuning, entries.remove("tuning"))];
         let (scenes, notes) = scenes::read(&source, sets, files)?;
         Ok(Self { name: name.clone(), seed, repeats, scenes, planners, notes })
+    }
+
+    /// The comparison that a store keeps.
+    pub fn from_stored(stored: &Stored) -> Result<Self, FileError> {
+        Self::from_toml("the stored comparison", &stored.comparison, &Kept::new(stored))
     }
 
     /// Keeps only the planners of these labels, in the file's order; `Err` names the first label that is none.

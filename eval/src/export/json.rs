@@ -45,7 +45,7 @@ pub fn manifest_json(results: &Results) -> String {
         seed: results.seed,
         repeats: results.repeats,
         runs: results.runs.len(),
-        runs_planned: results.planners.len() * results.scenes.len() * results.repeats as usize,
+        runs_planned: results.planned(),
         seed_formula: seeds::FORMULA,
         metrics_version: crate::metrics::VERSION,
         manifest: &results.manifest,

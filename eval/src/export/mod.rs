@@ -39,13 +39,28 @@ impl Formats {
     pub const OWN: Self = Self { html: true, csv: true, json: true, toml: true, ..Self::NONE };
 }
 
+/// Writes a file whole or not at all: who reads it, or is left with it by a kill, never has half of it.
+fn put(path: &Path, text: &str) -> Result<(), Error> {
+    let mut part = path.as_os_str().to_owned();
+    part.push(".part");
+    let written = fs::write(&part, text).and_then(|()| fs::rename(&part, path));
+    written.inspect_err(|_| drop(fs::remove_file(&part))).map_err(Error::io("write", path))
+}
+
+/// Whether `folder` holds the exports of what is stored, [`Formats::OWN`]: the manifest, which is written last, and
+/// all others.
+pub fn are_made(folder: &Path, stored: &Stored) -> bool {
+    let files = ["runs.csv", "summary.csv", "paths.jsonl", "results.json", "comparison.toml", "report.html"];
+    let scenes = stored.scene_files.iter().map(String::as_str);
+    let manifest = fs::read_to_string(folder.join("manifest.json"));
+    manifest.is_ok_and(|text| text == manifest_json(&stored.results))
+        && files.into_iter().chain(scenes).all(|file| folder.join(file).is_file())
+}
+
 /// Writes the exports into `folder`.
 pub fn write(folder: &Path, stored: &Stored, formats: Formats, language: Language) -> Result<(), Error> {
     let results = &stored.results;
-    let put = |name: &str, text: &str| {
-        let path = folder.join(name);
-        fs::write(&path, text).map_err(Error::io("write", &path))
-    };
+    let put = |name: &str, text: &str| put(&folder.join(name), text);
     let create = |name: &str| {
         let path = folder.join(name);
         fs::create_dir_all(&path).map_err(Error::io("create", &path))
@@ -56,7 +71,6 @@ pub fn write(folder: &Path, stored: &Stored, formats: Formats, language: Languag
     }
     if formats.json {
         put("paths.jsonl", &paths_jsonl(results))?;
-        put("manifest.json", &manifest_json(results))?;
         put("results.json", &results_json(results))?;
         put("results.schema.json", json::SCHEMA)?;
     }
@@ -78,6 +92,10 @@ pub fn write(folder: &Path, stored: &Stored, formats: Formats, language: Languag
     }
     if formats.html {
         put("report.html", &report::html(results, language))?;
+    }
+    // Last: it stands for all of them.
+    if formats.json {
+        put("manifest.json", &manifest_json(results))?;
     }
     Ok(())
 }

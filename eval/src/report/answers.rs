@@ -5,7 +5,7 @@ use minijinja::{Value, context};
 use super::data_table::swatch;
 use super::evidence::Evidence;
 use super::language::Strings;
-use super::{phrases, planned};
+use super::phrases;
 use crate::analysis::fixed_budget::fixed_budget;
 use crate::analysis::sentences::{Sentence, against_best, validity};
 use crate::analysis::targets::SHOWN;
@@ -183,7 +183,7 @@ fn size(evidence: &Evidence<'_>, t: &Strings) -> String {
         return t.get("size_empty").to_owned();
     }
     t.fill(
-        if results.runs.len() < planned(results) { "size_part" } else { "size" },
+        if results.runs.len() < results.planned() { "size_part" } else { "size" },
         &[
             ("planners", &t.plural(p, "planners_one", "planners")),
             ("scenes", &t.plural(s, "scenes_one", "scenes")),

@@ -61,11 +61,6 @@ const SMALL: usize = 24;
 /// Notes on scenes shown; a log of thousands of cycles has hundreds.
 const MOST_NOTES: usize = 10;
 
-/// Runs of the campaign when it is complete.
-pub fn planned(results: &Results) -> usize {
-    results.planners.len().saturating_mul(results.scenes.len()).saturating_mul(results.repeats as usize)
-}
-
 /// The report of a campaign as one HTML file without outside references.
 pub fn html(results: &Results, language: Language) -> String {
     let t = Strings::new(language);
@@ -174,13 +169,16 @@ fn common_unit(results: &Results) -> &str {
 
 /// What to know before anything else of a campaign that lacks runs.
 fn unfinished(results: &Results, t: &Strings) -> Option<String> {
-    let (runs, planned) = (results.runs.len(), planned(results));
+    let (runs, planned) = (results.runs.len(), results.planned());
     let count = |n: usize| crate::format::count(n as f64);
     (runs < planned).then(|| t.fill("unfinished", &[("runs", &count(runs)), ("planned", &count(planned))]))
 }
 
 fn warnings(manifest: &Manifest, t: &Strings) -> Vec<String> {
     let mut warnings = Vec::new();
+    if !manifest.shard.is_empty() {
+        warnings.push(t.fill("note_shard", &[("shard", &manifest.shard)]));
+    }
     if manifest.jobs > 1 {
         warnings.push(t.fill("note_jobs", &[("n", &manifest.jobs.to_string())]));
     }
