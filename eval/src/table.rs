@@ -4,7 +4,7 @@ use comfy_table::{Cell, CellAlignment, LineStyle, Table, TableStyle};
 
 use crate::analysis::{Summary, summarise};
 use crate::format;
-use crate::results::Results;
+use crate::results::{Results, SceneSet};
 
 /// With more scenes only the table over all of them is printed.
 const MOST_SCENES: usize = 4;
@@ -13,8 +13,13 @@ const MOST_SCENES: usize = 4;
 pub fn render(results: &Results) -> String {
     let scenes: Vec<&str> = results.scenes.iter().map(|s| s.scene.name.as_str()).collect();
     let mut out = String::new();
-    if scenes.len() > 1 {
-        out.push_str(&format!("All {} scenes together\n{}\n", scenes.len(), one(results, None)));
+    let tuning = results.scenes.iter().filter(|s| s.set == SceneSet::Tuning).count();
+    let what = if tuning == 0 { "scenes" } else { "test scenes" };
+    if scenes.len() - tuning > 1 {
+        out.push_str(&format!("All {} {what} together\n{}\n", scenes.len() - tuning, one(results, None)));
+    }
+    if tuning > 0 {
+        out.push_str(&format!("Settings were chosen on {tuning} more (tuning): no figure over scenes counts them.\n"));
     }
     if scenes.len() <= MOST_SCENES {
         for scene in &results.scenes {
@@ -23,7 +28,8 @@ pub fn render(results: &Results) -> String {
                 Some(length) => format!("optimum {}", format::length(*length)),
                 None => format!("no valid path: {}", scene.optimum.reason.as_deref().unwrap_or("not computed")),
             };
-            out.push_str(&format!("{name} ({}; {optimum})\n{}\n", scene.scene.unit, one(results, Some(name))));
+            let tuning = if scene.set == SceneSet::Tuning { "; tuning" } else { "" };
+            out.push_str(&format!("{name} ({}; {optimum}{tuning})\n{}\n", scene.scene.unit, one(results, Some(name))));
         }
     } else {
         out.push_str("Scene by scene: see summary.csv and report.html.\n");

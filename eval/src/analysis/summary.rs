@@ -26,11 +26,19 @@ pub struct Summary {
     pub time_us_median: f64,
     /// Median number of evaluations of all runs.
     pub evaluations_median: f64,
+    /// Median of the planner's own objective, as it counts it, +∞ for a run without a valid path; `None` where no run
+    /// tells one.
+    pub cost_median: Option<f64>,
 }
 
 /// A run's length as it counts in statistics: +∞ unless valid.
 pub fn counted_length(run: &RunRecord) -> f64 {
     if run.valid { run.length.unwrap_or(f64::INFINITY) } else { f64::INFINITY }
+}
+
+/// A run's own cost as it counts in statistics: +∞ unless valid.
+fn counted_cost(run: &RunRecord) -> f64 {
+    if run.valid { run.cost.unwrap_or(f64::INFINITY) } else { f64::INFINITY }
 }
 
 /// Summarises the runs of one planner in one scene, or (`None`) in all test scenes. `None` when it has no runs there.
@@ -56,6 +64,7 @@ pub fn summarise(results: &Results, planner: &str, scene: Option<&str>) -> Optio
         gap_median: gaps.as_deref().and_then(median),
         time_us_median: median(&of(&|r| r.time_us))?,
         evaluations_median: median(&of(&|r| r.evaluations as f64))?,
+        cost_median: runs.iter().any(|r| r.cost.is_some()).then(|| median(&of(&counted_cost))).flatten(),
     })
 }
 

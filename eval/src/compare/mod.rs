@@ -170,11 +170,12 @@ pub fn compare(old: &Side, new: &Side) -> Result<Changes, Error> {
 /// A planner, a scene or none for all of them, and the pairs of runs.
 type Group<'a> = (&'a str, Option<&'a str>, Vec<[&'a Run; 2]>);
 
-/// Each planner over all its scenes, where they are several.
+/// Each planner over all its test scenes, where they are several.
 fn over_scenes<'a>(pairs: &BTreeMap<(&'a str, &'a str), Vec<[&'a Run; 2]>>) -> Vec<Group<'a>> {
     let planners: BTreeSet<&str> = pairs.keys().map(|(_, planner)| *planner).collect();
     let whole = |planner: &'a str| {
-        let scenes: Vec<_> = pairs.iter().filter(|((_, p), _)| *p == planner).collect();
+        let counted = |runs: &[[&Run; 2]]| runs.iter().flatten().all(|run| !run.tuning());
+        let scenes: Vec<_> = pairs.iter().filter(|((_, p), runs)| *p == planner && counted(runs)).collect();
         let runs = scenes.iter().flat_map(|(_, runs)| runs.iter().copied()).collect();
         (scenes.len() > 1).then_some((planner, None, runs))
     };
@@ -186,7 +187,7 @@ fn change(planner: &str, scene: Option<&str>, pairs: &[[&Run; 2]]) -> Change {
     let gaps = pairs.iter().flatten().all(|run| !run.valid || run.gap.is_some());
     let column = |side: usize| pairs.iter().map(|pair| pair[side].quality(gaps)).collect::<Vec<f64>>();
     let (old, new) = (column(0), column(1));
-    let differing = pairs.iter().filter(|[a, b]| a.counts != b.counts).count();
+    let differing = pairs.iter().filter(|[a, b]| a.differs(b)).count();
     let (quality, p) = if differing == 0 { (Quality::Same, None) } else { verdict(&old, &new, scene.is_some()) };
     let (time_ratio, time_interval, speed) = times(pairs);
     Change {

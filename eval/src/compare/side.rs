@@ -6,6 +6,7 @@ use std::path::Path;
 
 use crate::error::Error;
 use crate::export;
+use crate::results::SceneSet;
 use crate::store::{self, Store};
 
 /// Columns that depend on the machine and the moment.
@@ -34,6 +35,16 @@ pub struct Run {
 }
 
 impl Run {
+    /// Whether a column that both have differs, but for times. Newer programs write more columns.
+    pub fn differs(&self, other: &Self) -> bool {
+        self.counts.iter().any(|(column, text)| other.counts.get(column).is_some_and(|theirs| theirs != text))
+    }
+
+    /// Whether its scene is one on which settings were chosen.
+    pub fn tuning(&self) -> bool {
+        self.counts.get("set").is_some_and(|set| set == SceneSet::Tuning.name())
+    }
+
     /// The run's gap, or its length; +∞ without a valid path.
     pub fn quality(&self, gap: bool) -> f64 {
         let value = if gap { self.gap } else { self.length };

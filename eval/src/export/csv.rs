@@ -1,10 +1,12 @@
 //! `runs.csv` and `summary.csv`.
 
+use std::collections::BTreeMap;
+
 use crate::analysis::{Summary, summarise};
-use crate::results::Results;
+use crate::results::{Results, SceneResult, SceneSet};
 
 /// The columns of `runs.csv`, stable: new ones come last.
-pub const RUN_COLUMNS: [&str; 19] = [
+pub const RUN_COLUMNS: [&str; 20] = [
     "scene",
     "planner",
     "repeat",
@@ -24,10 +26,11 @@ pub const RUN_COLUMNS: [&str; 19] = [
     "error",
     "cost",
     "terms",
+    "set",
 ];
 
 /// The columns of `summary.csv`.
-pub const SUMMARY_COLUMNS: [&str; 11] = [
+pub const SUMMARY_COLUMNS: [&str; 12] = [
     "planner",
     "scene",
     "runs",
@@ -39,6 +42,7 @@ pub const SUMMARY_COLUMNS: [&str; 11] = [
     "gap_median",
     "time_us_median",
     "evaluations_median",
+    "cost_median",
 ];
 
 /// The shortest decimal that reads back as the same number, empty for none.
@@ -58,8 +62,9 @@ pub(super) fn csv_text<R: AsRef<[String]>>(columns: &[&str], rows: impl Iterator
 
 /// `runs.csv`: one row a run, sorted by scene, planner, repeat.
 pub fn runs_csv(results: &Results) -> String {
-    let optimum = |name: &str| results.scenes.iter().find(|s| s.scene.name == name).and_then(|s| s.optimum.length);
+    let scenes: BTreeMap<&str, &SceneResult> = results.scenes.iter().map(|s| (s.scene.name.as_str(), s)).collect();
     let rows = results.runs.iter().map(|r| {
+        let scene = scenes.get(r.scene.as_str());
         [
             r.scene.clone(),
             r.planner.clone(),
@@ -68,7 +73,7 @@ pub fn runs_csv(results: &Results) -> String {
             r.status.name().to_owned(),
             r.valid.to_string(),
             cell(r.length),
-            cell(optimum(&r.scene)),
+            cell(scene.and_then(|s| s.optimum.length)),
             cell(r.gap),
             cell(r.clearance_min),
             cell(r.turning),
@@ -80,6 +85,7 @@ pub fn runs_csv(results: &Results) -> String {
             r.error.clone().unwrap_or_default(),
             cell(r.cost),
             r.terms.iter().map(|(name, value)| format!("{name}={value}")).collect::<Vec<_>>().join(";"),
+            scene.map_or_else(String::new, |s| s.set.name().to_owned()),
         ]
     });
     csv_text(&RUN_COLUMNS, rows)
@@ -88,14 +94,14 @@ pub fn runs_csv(results: &Results) -> String {
 /// The summaries of every planner, scene by scene and, where there are several
 /// scenes, over all of them; in the comparison's order.
 pub fn summaries(results: &Results) -> Vec<Summary> {
-    let all = (results.scenes.len() > 1).then_some(None);
+    let all = (results.scenes.iter().filter(|s| s.set == SceneSet::Test).count() > 1).then_some(None);
     let groups = all.into_iter().chain(results.scenes.iter().map(|s| Some(s.scene.name.as_str())));
     let of_group = |scene| results.planners.iter().filter_map(move |p| summarise(results, &p.label, scene));
     groups.flat_map(of_group).collect()
 }
 
 /// `summary.csv`: medians and quartiles, in which failures are +∞ (`inf`). An empty
-/// scene means all scenes together.
+/// scene means all test scenes together.
 pub fn summary_csv(results: &Results) -> String {
     let rows = summaries(results).into_iter().map(|s| {
         [
@@ -110,6 +116,7 @@ pub fn summary_csv(results: &Results) -> String {
             cell(s.gap_median),
             cell(Some(s.time_us_median)),
             cell(Some(s.evaluations_median)),
+            cell(s.cost_median),
         ]
     });
     csv_text(&SUMMARY_COLUMNS, rows)

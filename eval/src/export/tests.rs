@@ -46,11 +46,11 @@ fn results(campaign: &Campaign) -> Results {
 fn runs_csv_is_as_designed() {
     let campaign = campaign(vec![entry("straight", straight), entry("detour", detour)]);
     let expected = "\
-scene,planner,repeat,seed,status,valid,length,optimum,gap,clearance_min,turning,iterations,evaluations,collision_checks,time_us,cpu_us,error,cost,terms
-a-scene,detour,0,9007199254740991,not_found,false,,10.1,,,,0,0,0,0.25,1234.567,,,
-a-scene,detour,1,9007199254740991,solved,true,10.333333333333334,10.1,0.0000001,-0.0000000015,0.30000000000000004,0,8020,0,0.25,1234.567,,0.6666666666666666,length=0.30000000000000004;risk=5
+scene,planner,repeat,seed,status,valid,length,optimum,gap,clearance_min,turning,iterations,evaluations,collision_checks,time_us,cpu_us,error,cost,terms,set
+a-scene,detour,0,9007199254740991,not_found,false,,10.1,,,,0,0,0,0.25,1234.567,,,,test
+a-scene,detour,1,9007199254740991,solved,true,10.333333333333334,10.1,0.0000001,-0.0000000015,0.30000000000000004,0,8020,0,0.25,1234.567,,0.6666666666666666,length=0.30000000000000004;risk=5,test
 a-scene,straight,0,9007199254740991,error,false,,10.1,,,,0,0,0,0.25,1234.567,\"no, \"\"thanks\"\"
-really\",,
+really\",,,test
 ";
     assert_eq!(runs_csv(&results(&campaign)), expected);
 }
@@ -59,11 +59,11 @@ really\",,
 fn summaries_count_failures_as_infinite() {
     let campaign = campaign(vec![entry("straight", straight), entry("detour", detour)]);
     let expected = "\
-planner,scene,runs,valid,length_median,length_q1,length_q3,length_best,gap_median,time_us_median,evaluations_median
-straight,,1,0,inf,inf,inf,inf,inf,0.25,0
-detour,,2,1,inf,inf,inf,10.333333333333334,inf,0.25,4010
-straight,a-scene,1,0,inf,inf,inf,inf,inf,0.25,0
-detour,a-scene,2,1,inf,inf,inf,10.333333333333334,inf,0.25,4010
+planner,scene,runs,valid,length_median,length_q1,length_q3,length_best,gap_median,time_us_median,evaluations_median,cost_median
+straight,,1,0,inf,inf,inf,inf,inf,0.25,0,
+detour,,2,1,inf,inf,inf,10.333333333333334,inf,0.25,4010,inf
+straight,a-scene,1,0,inf,inf,inf,inf,inf,0.25,0,
+detour,a-scene,2,1,inf,inf,inf,10.333333333333334,inf,0.25,4010,inf
 ";
     assert_eq!(summary_csv(&results(&campaign)), expected);
 }
