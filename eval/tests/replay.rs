@@ -70,8 +70,8 @@ fn commands_replay_their_runs_to_the_last_bit() {
         assert_eq!(words[0], "touchline", "{command}");
         let arguments: Vec<&str> = words[1..].iter().map(String::as_str).chain(["--json"]).collect();
         let again: serde_json::Value = serde_json::from_slice(&touchline(&out, &arguments).stdout).unwrap();
-        let repeat = &seeds[&(planner.to_owned(), words.last().unwrap().clone())];
-        let run = paths.iter().find(|p| p["planner"] == planner && p["repeat"].to_string() == *repeat).unwrap();
+        let repeat: u64 = seeds[&(planner.to_owned(), words.last().unwrap().clone())].parse().unwrap();
+        let run = paths.iter().find(|p| p["planner"] == planner && p["repeat"] == repeat).unwrap();
         assert_eq!(again["path"], run["path"], "{command}");
         assert!(run["path"].as_array().unwrap().len() >= 2);
         replayed += 1;

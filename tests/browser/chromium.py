@@ -17,7 +17,7 @@ FLAGS = [
     "--disable-background-networking", "--disable-component-update", "--disable-sync", "--hide-scrollbars",
     "--remote-debugging-pipe",
 ]
-NAMES = ["chromium", "chromium-browser", "google-chrome-stable", "google-chrome"]
+NAMES = ["chromium", "chromium-browser", "google-chrome"]
 # Pages of some megabytes take seconds on a busy machine; a hang takes for ever.
 PATIENCE = 120.0
 

@@ -198,7 +198,9 @@ fn quotes(evidence: &Evidence<'_>, t: &Strings) -> Vec<String> {
     let mut quality = against_best(&evidence.grid, &evidence.quality);
     let rival = |s: &Sentence| match s {
         Sentence::Better { medians, .. } | Sentence::Settled { medians, .. } => medians[1],
-        Sentence::Alike { .. } => 0.0,
+        Sentence::Alike { best, other, .. } => {
+            evidence.quality.of(*best, *other).map_or(f64::INFINITY, |pair| pair.medians_of(*other)[0])
+        }
         Sentence::Valid { .. } => f64::INFINITY,
     };
     quality.retain(|s| rival(s).is_finite());

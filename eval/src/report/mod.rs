@@ -51,7 +51,7 @@ pub use language::Language;
 use language::Strings;
 use scene_section::Extent;
 
-use crate::analysis::Effort;
+use crate::analysis::{Effort, Measure};
 use crate::results::{Manifest, Results, SceneResult, SceneSet};
 
 /// Scenes shown with every figure.
@@ -126,8 +126,16 @@ fn statistics(evidence: &Evidence<'_>, t: &Strings) -> Value {
     };
     let tuning = evidence.results.scenes.len() - evidence.grid.scenes.len();
     let scenes = t.plural(evidence.grid.scenes.len(), "scenes_one", "scenes");
+    let mut scope = t.fill(
+        if tuning > 0 { "scope_tuning" } else { "scope" },
+        &[("scenes", &scenes), ("tuning", &tuning.to_string())],
+    );
+    if evidence.quality.measure == Measure::Length && evidence.grid.scenes.len() > 1 {
+        scope += t.get("sentence_gap");
+        scope += t.get("scope_lengths");
+    }
     context! {
-        scope => t.fill(if tuning > 0 { "scope_tuning" } else { "scope" }, &[("scenes", &scenes), ("tuning", &tuning.to_string())]),
+        scope,
         families => families::figure(evidence, t),
         budgets => variants::budgets(evidence, t), variants => variants::groups(evidence, t),
         ecdf => both(&|effort| ecdf::figure(evidence, effort, t)),

@@ -100,9 +100,8 @@ pub fn figure(results: &Results, t: &Strings) -> Option<Value> {
     let files = scene_files(results.scenes.iter().map(|s| s.scene.name.as_str()));
     let describe = |case: &Case<'_>| {
         let scene = results.scenes.iter().position(|s| s.scene.name == case.run.scene)?;
-        let planner = &results.planners[case.planner];
-        let command = replay_command::command(planner, &files[scene], case.run.seed);
-        let all_runs = planner.kind == "external";
+        let command = replay_command::command(&results.planners[case.planner], &files[scene], case.run.seed);
+        let all_runs = command.starts_with("touchline run");
         Some((scene, words(case, results, scene, t), command, all_runs))
     };
     let drawn = drawn.iter().enumerate().filter_map(|(n, case)| {
@@ -144,7 +143,7 @@ fn words(case: &Case<'_>, results: &Results, scene: usize, t: &Strings) -> Strin
         Kind::Gap => t.fill("worst_gap", &[("gap", &format::percent(case.badness))]),
     };
     let which = t.fill("worst_run", &[("repeat", &run.repeat.to_string()), ("seed", &run.seed.to_string())]);
-    what + t.get("sentence_gap") + &which
+    which + t.get("sentence_gap") + &what
 }
 
 fn draw(results: &Results, scene: usize, case: &Case<'_>, id: &str, title: &str, text: &str, t: &Strings) -> String {
