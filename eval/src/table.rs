@@ -34,6 +34,9 @@ pub fn render(results: &Results) -> String {
     } else {
         out.push_str("Scene by scene: see summary.csv and report.html.\n");
     }
+    if scenes.len() - tuning > 1 {
+        out.push_str("Over several scenes: medians and quartiles of the scenes' medians.\n");
+    }
     out.push_str("Runs without a valid path count as ∞. IQR: quartiles of the length. Median time of all runs.\n");
     out
 }

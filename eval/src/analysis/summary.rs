@@ -1,6 +1,6 @@
 //! The rows of the comparison table.
 
-use crate::results::{Results, RunRecord, SceneSet};
+use crate::results::{Results, RunRecord, SceneResult, SceneSet};
 use crate::statistics::{median, quantile};
 
 /// What the comparison table says of one planner, over one scene or all.
@@ -41,21 +41,29 @@ fn counted_cost(run: &RunRecord) -> f64 {
     if run.valid { run.cost.unwrap_or(f64::INFINITY) } else { f64::INFINITY }
 }
 
-/// Summarises the runs of one planner in one scene, or (`None`) in all test scenes. `None` when it has no runs there.
+/// Summarises the runs of one planner in one scene, or (`None`) in all test scenes: then its medians and quartiles are
+/// those of the scenes' medians, as in the tests, so that a scene counts as one however its runs vary. `None` when it
+/// has no runs there.
 ///
 /// Failures are +∞ in every median.
 pub fn summarise(results: &Results, planner: &str, scene: Option<&str>) -> Option<Summary> {
-    let tuning = |name: &str| results.scenes.iter().any(|s| s.scene.name == name && s.set == SceneSet::Tuning);
-    let counts = |r: &&RunRecord| scene.is_some() || !tuning(&r.scene);
-    let runs: Vec<&RunRecord> = results.runs_of(planner, scene).filter(counts).collect();
+    let Some(scene) = scene else {
+        let tests = results.scenes.iter().filter(|s| s.set == SceneSet::Test);
+        let scenes: Vec<Summary> = tests.filter_map(|s| in_scene(results, planner, s)).collect();
+        return over_scenes(planner, &scenes);
+    };
+    in_scene(results, planner, results.scenes.iter().find(|s| s.scene.name == scene)?)
+}
+
+fn in_scene(results: &Results, planner: &str, scene: &SceneResult) -> Option<Summary> {
+    let name = &scene.scene.name;
+    let runs: Vec<&RunRecord> = results.runs_of(planner, Some(name)).collect();
     let of = |f: &dyn Fn(&RunRecord) -> f64| runs.iter().map(|r| f(r)).collect::<Vec<f64>>();
     let lengths = of(&counted_length);
-    // A median over the easier part of the scenes would drop the failures in the others.
-    let known = |name: &str| results.scenes.iter().any(|s| s.scene.name == name && s.optimum.length.is_some());
-    let gaps = runs.iter().all(|r| known(&r.scene)).then(|| of(&|r| r.gap.unwrap_or(f64::INFINITY)));
+    let gaps = scene.optimum.length.map(|_| of(&|r| r.gap.unwrap_or(f64::INFINITY)));
     Some(Summary {
         planner: planner.to_owned(),
-        scene: scene.map(str::to_owned),
+        scene: Some(name.clone()),
         runs: runs.len(),
         valid: runs.iter().filter(|r| r.valid).count(),
         length_median: median(&lengths)?,
@@ -65,6 +73,26 @@ pub fn summarise(results: &Results, planner: &str, scene: Option<&str>) -> Optio
         time_us_median: median(&of(&|r| r.time_us))?,
         evaluations_median: median(&of(&|r| r.evaluations as f64))?,
         cost_median: runs.iter().any(|r| r.cost.is_some()).then(|| median(&of(&counted_cost))).flatten(),
+    })
+}
+
+fn over_scenes(planner: &str, scenes: &[Summary]) -> Option<Summary> {
+    let of = |f: &dyn Fn(&Summary) -> f64| scenes.iter().map(f).collect::<Vec<f64>>();
+    // A median over the easier part of the scenes would drop the failures in the others.
+    let all = |f: &dyn Fn(&Summary) -> Option<f64>| scenes.iter().map(f).collect::<Option<Vec<f64>>>();
+    let lengths = of(&|s| s.length_median);
+    Some(Summary {
+        planner: planner.to_owned(),
+        scene: None,
+        runs: scenes.iter().map(|s| s.runs).sum(),
+        valid: scenes.iter().map(|s| s.valid).sum(),
+        length_median: median(&lengths)?,
+        length_quartiles: [quantile(&lengths, 0.25)?, quantile(&lengths, 0.75)?],
+        length_best: scenes.iter().map(|s| s.length_best).fold(f64::INFINITY, f64::min),
+        gap_median: all(&|s| s.gap_median).as_deref().and_then(median),
+        time_us_median: median(&of(&|s| s.time_us_median))?,
+        evaluations_median: median(&of(&|s| s.evaluations_median))?,
+        cost_median: all(&|s| s.cost_median).as_deref().and_then(median),
     })
 }
 
@@ -82,5 +110,17 @@ mod tests {
         assert_eq!((all.runs, all.length_median), (1, 11.0));
         let tuning = summarise(&results, "a", Some("t")).unwrap();
         assert_eq!((tuning.runs, tuning.length_median, tuning.gap_median), (1, f64::INFINITY, None));
+    }
+
+    #[test]
+    fn every_scene_counts_once() {
+        // In "s" the runs vary widely, in "t" little: pooled, the median would be 5.25 %.
+        let gaps = [("s", [10.1, 10.1, 20.0]), ("t", [10.5, 10.55, 10.6]), ("u", [10.3, 10.3, f64::INFINITY])];
+        let runs = gaps.iter().flat_map(|(scene, lengths)| (0..3).map(|k| run(scene, "a", k, lengths[k as usize])));
+        let gap = |r: RunRecord| RunRecord { gap: r.length.map(|l| l / 10.0 - 1.0), ..r };
+        let results = results(&["a"], &gaps.map(|(scene, _)| (scene, Some(10.0))), runs.map(gap).collect());
+        let all = summarise(&results, "a", None).unwrap();
+        assert_eq!((all.runs, all.valid, all.length_best, all.length_median), (9, 8, 10.1, 10.3));
+        assert_eq!(all.gap_median, Some(10.3 / 10.0 - 1.0), "the middle of 1, 3 and 5.5 %");
     }
 }
