@@ -17,6 +17,7 @@ pub(super) fn report(args: &ReportArgs) -> Result<ExitCode, Error> {
             html: has(Format::Html),
             csv: has(Format::Csv),
             json: has(Format::Json),
+            document: has(Format::Json),
             ompl: has(Format::Ompl),
             ioh: has(Format::Ioh),
             toml: false,

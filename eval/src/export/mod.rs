@@ -22,8 +22,10 @@ pub struct Formats {
     pub html: bool,
     /// `runs.csv` and `summary.csv`.
     pub csv: bool,
-    /// `paths.jsonl`, `manifest.json`, and `results.json` with its schema.
+    /// `paths.jsonl` and `manifest.json`.
     pub json: bool,
+    /// `results.json` with its schema: the same and everything else in one document.
+    pub document: bool,
     /// `ompl/SCENE.log`.
     pub ompl: bool,
     /// `ioh.csv`.
@@ -34,8 +36,9 @@ pub struct Formats {
 
 impl Formats {
     /// None of them.
-    pub const NONE: Self = Self { html: false, csv: false, json: false, ompl: false, ioh: false, toml: false };
-    /// What every campaign leaves: all but the formats of other programs.
+    pub const NONE: Self =
+        Self { html: false, csv: false, json: false, document: false, ompl: false, ioh: false, toml: false };
+    /// What every campaign leaves. What is only for other programs, and large, is made when it is asked for.
     pub const OWN: Self = Self { html: true, csv: true, json: true, toml: true, ..Self::NONE };
 }
 
@@ -50,7 +53,7 @@ fn put(path: &Path, text: &str) -> Result<(), Error> {
 /// Whether `folder` holds the exports of what is stored, [`Formats::OWN`]: the manifest, which is written last, and
 /// all others.
 pub fn are_made(folder: &Path, stored: &Stored) -> bool {
-    let files = ["runs.csv", "summary.csv", "paths.jsonl", "results.json", "comparison.toml", "report.html"];
+    let files = ["runs.csv", "summary.csv", "paths.jsonl", "comparison.toml", "report.html"];
     let scenes = stored.scene_files.iter().map(String::as_str);
     let manifest = fs::read_to_string(folder.join("manifest.json"));
     manifest.is_ok_and(|text| text == manifest_json(&stored.results))
@@ -71,6 +74,8 @@ pub fn write(folder: &Path, stored: &Stored, formats: Formats, language: Languag
     }
     if formats.json {
         put("paths.jsonl", &paths_jsonl(results))?;
+    }
+    if formats.document {
         put("results.json", &results_json(results))?;
         put("results.schema.json", json::SCHEMA)?;
     }
