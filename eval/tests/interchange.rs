@@ -151,8 +151,8 @@ fn scenarios_that_disagree_with_the_map_are_named() {
 fn exports_are_made_when_asked_for() {
     let place = furnished("exports");
     place.ok(&["run", "maps.toml", "--out", "out", "--quiet"]);
-    assert!(!place.0.join("out/ioh.csv").exists() && place.0.join("out/results.json").exists());
-    place.ok(&["report", "out", "--format", "ompl,ioh"]);
+    assert!(!place.0.join("out/ioh.csv").exists() && !place.0.join("out/results.json").exists());
+    place.ok(&["report", "out", "--format", "ompl,ioh,json"]);
     assert!(place.read("out/ompl/t-p0002.log").starts_with("touchline version "));
     assert!(place.read("out/ioh.csv").starts_with("evaluations,function_value,"));
     let document: serde_json::Value = serde_json::from_str(&place.read("out/results.json")).unwrap();

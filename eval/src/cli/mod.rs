@@ -195,7 +195,7 @@ enum Tongue {
 struct ReportArgs {
     /// Folder of a campaign
     dir: PathBuf,
-    /// What to make; default: html, csv, json, and the comparison with its scenes
+    /// What to make; default: what a run leaves
     #[arg(long, value_name = "FORMAT", value_delimiter = ',')]
     format: Vec<Format>,
     /// Language of report.html
