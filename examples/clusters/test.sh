@@ -11,7 +11,7 @@ trap 'rm -rf "$work"' EXIT
 unset RAY_ADDRESS
 
 python3 -m venv "$work/venv"
-"$work/venv/bin/pip" install --quiet 'dask[distributed]' ray
+"$work/venv/bin/pip" install --quiet 'dask[distributed]==2026.8.0' ray==2.60.0 || exit 77
 
 "$touchline" run "$here/campaign.toml" --quiet --out "$work/bench"
 "$work/venv/bin/python" "$here/with_dask.py" "$work/bench/comparison.toml" --out "$work/dask" --program "$touchline"

@@ -9,7 +9,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 python3 -m venv "$work/venv"
-"$work/venv/bin/pip" install --quiet -r "$here/requirements.txt"
+"$work/venv/bin/pip" install --quiet -r "$here/requirements.txt" || exit 77
 # The comparison says python3.
 PATH="$work/venv/bin:$PATH"
 

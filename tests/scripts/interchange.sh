@@ -8,7 +8,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 python3 -m venv "$work/venv"
-"$work/venv/bin/pip" install --quiet --disable-pip-version-check ompl==2.0.1 jsonschema==4.25.1
+"$work/venv/bin/pip" install --quiet --disable-pip-version-check ompl==2.0.1 jsonschema==4.25.1 || exit 77
 "$touchline" run tests/baseline/small.toml --out "$work/out" --quiet
 "$touchline" report "$work/out" --format csv,json,ompl
 "$work/venv/bin/ompl_benchmark_statistics" "$work"/out/ompl/*.log -d "$work/runs.db" > "$work/printed"
