@@ -14,6 +14,7 @@ mod planner;
 mod problem;
 mod run;
 pub mod seed;
+mod told;
 
 pub use budget::Budget;
 pub use error::{PlanError, SettingError};
@@ -24,3 +25,4 @@ pub use plan::{Candidates, Counters, Plan};
 pub use planner::{Planner, Refinement, Refiner, Status};
 pub use problem::Problem;
 pub use run::Run;
+pub use told::Told;

@@ -48,7 +48,8 @@ pub struct Frame<'a> {
     pub iteration: u64,
     /// Evaluations so far.
     pub evaluations: u64,
-    /// Best cost so far by the planner's own objective; never rises within a stage.
+    /// Best cost so far by the planner's own objective; never rises within a stage. +∞ while that is only a penalty
+    /// on a path that collides: see [`Told`](crate::Told).
     pub best_cost: f64,
     /// The planner's state.
     pub view: View<'a>,

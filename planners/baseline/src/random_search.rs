@@ -4,7 +4,7 @@
 //! by default as many evaluations as the swarm: what is left is the search.
 
 use env_model::{Columns, Point};
-use planner_api::{Plan, PlanError, Planner, Problem, Run, SettingError, Status, View};
+use planner_api::{Plan, PlanError, Planner, Problem, Run, SettingError, Status, Told, View};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde::{Deserialize, Serialize};
@@ -65,7 +65,7 @@ impl Planner for RandomSearch {
         let columns = Columns::new(problem.start, problem.goal, self.settings.columns);
         let half_width = columns.half_width();
         let mut rng = ChaCha8Rng::seed_from_u64(run.seed);
-        let mut free = false;
+        let (mut free, mut told) = (false, Told::default());
         for _ in 0..self.settings.evaluations {
             if !run.allows(1) {
                 break;
@@ -90,8 +90,9 @@ impl Planner for RandomSearch {
                 plan.cost = cost;
                 free = hits == 0;
                 std::mem::swap(&mut plan.path, &mut self.trial);
+                told.improve(plan.cost, &plan.path);
             }
-            run.report("random-search", plan.cost, || View::Path(&plan.path));
+            run.report("random-search", told.cost(), || View::Path(&plan.path));
         }
         plan.counters = run.spent;
         Ok(match (run.stopped(), free) {

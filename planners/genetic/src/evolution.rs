@@ -22,6 +22,10 @@ pub trait Species {
     fn fitness(&mut self, genes: &[Gene]) -> f64;
     /// The cost to report, in scene units where it can be; falls as `fitness` rises, finite.
     fn cost(&self, fitness: f64) -> f64;
+    /// Whether the cost of `genes` is but a penalty on a path that collides; asked for observers only.
+    fn penalised(&self, _genes: &[Gene]) -> bool {
+        false
+    }
     /// Appends the path, both ends exact.
     fn write_path(&self, genes: &[Gene], path: &mut Vec<Point>);
     /// The cells that the genes number, if they do.
@@ -163,7 +167,10 @@ impl Evolution {
             plan.path.clear();
             species.write_path(&population.genes[best], &mut plan.path);
         }
-        run.report(stage, species.cost(population.fitness[best]), || {
+        let watched = run.detail() != Detail::None;
+        let penalised = watched && species.penalised(&population.genes[best]);
+        let told = if penalised { f64::INFINITY } else { species.cost(population.fitness[best]) };
+        run.report(stage, told, || {
             View::Population(PopulationView {
                 paths,
                 fitness: &population.fitness,

@@ -163,6 +163,10 @@ impl Species for Tours<'_> {
         FREE / COLLIDING * diagonal * (self.vertices.len() + 2) as f64
     }
 
+    fn penalised(&self, genes: &[Gene]) -> bool {
+        !self.every_segment(genes, |a, b| self.problem.world.segment_free(a, b))
+    }
+
     fn write_path(&self, genes: &[Gene], path: &mut Vec<Point>) {
         path.push(self.problem.start);
         self.every_segment(genes, |_, next| {

@@ -1,7 +1,7 @@
 //! The planner round the swarm.
 
-use env_model::Columns;
-use planner_api::{Detail, Plan, PlanError, Planner, Problem, Run, SettingError, Status, SwarmView, View};
+use env_model::{Columns, Point};
+use planner_api::{Detail, Plan, PlanError, Planner, Problem, Run, SettingError, Status, SwarmView, Told, View};
 
 use crate::Settings;
 use crate::rules::{UpdateRule, rule};
@@ -21,12 +21,16 @@ pub struct Pso {
     rows: Rows,
 }
 
-/// The swarm's matrices with one particle a row, made only for observers.
+/// What is made only for observers: the swarm's matrices with one particle a row, its best cost where that is a length.
 #[derive(Default)]
 struct Rows {
     x: Vec<f64>,
     v: Vec<f64>,
     best: Vec<f64>,
+    /// The global best as a path, its cost, and what observers are told of it.
+    path: Vec<Point>,
+    seen: f64,
+    told: Told,
 }
 
 impl Pso {
@@ -57,12 +61,21 @@ impl Pso {
 
 impl Rows {
     fn report(&mut self, swarm: &Swarm, columns: &Columns, run: &mut Run<'_>) {
+        if run.detail() == Detail::None {
+            return;
+        }
+        if swarm.global_cost < self.seen {
+            self.seen = swarm.global_cost;
+            self.path.clear();
+            columns.write_path(&swarm.global, &mut self.path);
+            self.told.improve(self.seen, &self.path);
+        }
         if run.detail() == Detail::State {
             swarm.transpose(&swarm.x, &mut self.x);
             swarm.transpose(&swarm.v, &mut self.v);
             swarm.transpose(&swarm.best, &mut self.best);
         }
-        run.report("pso", swarm.global_cost, || {
+        run.report("pso", self.told.cost(), || {
             View::Swarm(SwarmView {
                 columns,
                 positions: &self.x,
@@ -89,6 +102,7 @@ impl Planner for Pso {
         terrain.compile(problem.world, &columns, settings.bounds.unwrap_or_default());
         sides.begin(settings.side_classes, terrain, &columns);
         let ground = Ground { width: *width, settings, world: problem.world, columns: &columns, terrain };
+        (rows.seen, rows.told) = (f64::INFINITY, Told::default());
         let mut account = |swarm: &Swarm, run: &mut Run<'_>| {
             run.spent.evaluations += swarm.evaluated;
             run.spent.collision_checks += swarm.evaluated * (m as u64 + 1);

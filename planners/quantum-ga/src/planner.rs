@@ -2,7 +2,7 @@
 
 use env_model::{Columns, Point, World};
 use planner_api::{
-    Candidates, Detail, Plan, PlanError, Planner, PopulationView, Problem, Run, SettingError, Status, View,
+    Candidates, Detail, Plan, PlanError, Planner, PopulationView, Problem, Run, SettingError, Status, Told, View,
 };
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -31,6 +31,7 @@ pub struct QuantumGa {
     path: Vec<Point>,
     paths: Candidates,
     fitness: Vec<f64>,
+    told: Told,
 }
 
 impl QuantumGa {
@@ -49,6 +50,7 @@ impl QuantumGa {
             path: Vec::new(),
             paths: Candidates::default(),
             fitness: Vec::new(),
+            told: Told::default(),
         })
     }
 
@@ -132,7 +134,8 @@ impl QuantumGa {
             self.fitness.clear();
             self.fitness.extend(self.observed.costs.iter().map(|cost| 1.0 / cost));
         }
-        run.report("quantum-ga", plan.cost, || {
+        self.told.improve(plan.cost, &plan.path);
+        run.report("quantum-ga", self.told.cost(), || {
             View::Population(PopulationView {
                 paths: &self.paths,
                 fitness: &self.fitness,
@@ -151,6 +154,7 @@ impl Planner for QuantumGa {
         let gate = Gate::new(rotation);
         let mut rng = ChaCha8Rng::seed_from_u64(run.seed);
         let size = population * self.length();
+        self.told = Told::default();
         self.qubits.clear();
         self.qubits.resize(size, Qubit::EVEN);
         self.observed.strings.clear();
