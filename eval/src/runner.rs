@@ -178,6 +178,7 @@ pub fn judged(mut record: RunRecord, judge: &Judge<'_>, optimum: Option<f64>) ->
     let verdict = judge.verdict(&record.path);
     record.valid = verdict.is_ok();
     if let Err(fault @ (Fault::WrongStart(_) | Fault::WrongGoal(_))) = verdict {
+        record.status = RunStatus::Error;
         record.error = Some(fault.to_string());
     }
     if record.path.len() >= 2 {
@@ -247,6 +248,7 @@ mod tests {
         }
         assert!(of("panic").any(|r| r.valid) && of("panic").any(|r| !r.valid), "both happened");
         assert!(of("nan").all(|r| r.status == RunStatus::Error && r.path.is_empty() && r.length.is_none()));
+        assert!(of("short").all(|r| r.status == RunStatus::Error));
         assert!(of("short").all(|r| !r.valid && r.error.as_deref().is_some_and(|e| e.contains("not at the goal"))));
         let seeds = |planner| of(planner).map(|r| r.seed).collect::<Vec<_>>();
         assert_eq!(seeds("straight"), seeds("nan"), "paired");
