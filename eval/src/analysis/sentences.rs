@@ -1,7 +1,8 @@
 //! Sentences a person can quote, as data; [`Sentence::english`] writes them out.
 //!
 //! Each planner is set against the best one. A difference is stated where Holm's correction over all pairs leaves
-//! p < 0.05; otherwise the two cannot be told apart.
+//! p < 0.05; otherwise the two cannot be told apart, or where no data in so few blocks could have left that, there
+//! is no test to speak of and the figures stand alone.
 
 use super::blocks::{Measure, Over};
 use super::grid::Grid;
@@ -61,6 +62,23 @@ pub enum Sentence {
         /// What the blocks are.
         over: Over,
     },
+    /// So few blocks that no data in them could have told two planners apart.
+    TooFew {
+        /// By what.
+        measure: Measure,
+        /// The best planner.
+        best: usize,
+        /// The other one.
+        other: usize,
+        /// Their figures.
+        medians: [f64; 2],
+        /// How probably a run of the best one beats one of the other in the same scene.
+        a12: Option<f64>,
+        /// Blocks.
+        pairs: usize,
+        /// What the blocks are.
+        over: Over,
+    },
     /// The repeats of both are all alike: their figures stand as they are, for this scene, without any p-value.
     Settled {
         /// By what.
@@ -97,8 +115,7 @@ fn best(planners: usize, pairs: &Pairs) -> Option<usize> {
     let beats = |a: usize, b: usize| {
         let Some(pair) = pairs.of(a, b) else { return false };
         let [x, y] = pair.medians_of(a);
-        let share = pair.a12.map_or(0.5, |s| if pair.a == a { s } else { 1.0 - s });
-        x < y || (x == y && share > 0.5)
+        x < y || (x == y && pair.a12_of(a).is_some_and(|share| share > 0.5))
     };
     let first = (1..planners).fold(0, |best, p| if beats(p, best) { p } else { best });
     let finite = |pair: &Pair| (pair.a == first || pair.b == first) && pair.medians_of(first)[0].is_finite();
@@ -114,6 +131,10 @@ fn sentence(pairs: &Pairs, pair: &Pair, best: usize, other: usize) -> Option<Sen
     let (Some(test), Some(p)) = (pair.test, pair.p) else {
         return Some(Sentence::Settled { measure, best, other, medians });
     };
+    if p >= ALPHA && pair.least_p.is_some_and(|least| least >= ALPHA) {
+        let a12 = pair.a12_of(best);
+        return Some(Sentence::TooFew { measure, best, other, medians, a12, pairs: pair.blocks, over });
+    }
     if p >= ALPHA {
         return Some(Sentence::Alike { measure, best, other, p, pairs: pair.blocks, over });
     }
@@ -163,6 +184,16 @@ impl Sentence {
                 let (a, b, what) = (names[*best], names[*other], noun(*measure));
                 format!("{a} and {b} cannot be told apart by {what} ({}, {})", p_value(*p), evidence(*pairs, *over))
             }
+            Self::TooFew { measure, best, other, medians, a12, pairs, over } => {
+                let (a, b) = (names[*best], names[*other]);
+                let a12 = a12.map_or(format::NONE.to_owned(), |share| format::significant(share, 2));
+                let blocks = match over {
+                    Over::Repeats => "pairs",
+                    Over::Scenes => "scenes",
+                };
+                let figures = figures(*measure, *medians);
+                format!("{a} against {b}: too few {blocks} ({pairs}) for a test; {figures}, A₁₂ {a12}")
+            }
             Self::Settled { measure, best, other, medians: [x, y] } => {
                 let (a, b) = (names[*best], names[*other]);
                 let said = if x == y {
@@ -195,10 +226,10 @@ fn comparative(measure: Measure) -> &'static str {
 fn figures(measure: Measure, [x, y]: [f64; 2]) -> String {
     let shown = |v: f64| match measure {
         Measure::Gap => format::percent(v),
-        Measure::Length => format!("{}\u{a0}×", format::significant(v, 6)),
+        Measure::Length => format::significant(v, 6),
         Measure::Time => format::time(v),
     };
-    let of = if measure == Measure::Length { " the shortest" } else { "" };
+    let of = if measure == Measure::Length { " times the shortest" } else { "" };
     format!("median {} {} against {}{of}", noun(measure), shown(x), shown(y))
 }
 
@@ -223,7 +254,7 @@ fn evidence(pairs: usize, over: Over) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::testing::one_scene;
+    use super::super::testing::{one_scene, results, run};
     use super::*;
 
     fn said(planners: &[(&str, &[f64])], measure: Measure) -> Vec<String> {
@@ -254,6 +285,35 @@ mod tests {
                 "pso-qp and like cannot be told apart by gap (p = 1, 30 pairs)",
                 "pso-qp is nearer the optimum than rare (median gap 2.45\u{a0}% against ∞, p < 0.001, 30 pairs)",
             ]
+        );
+    }
+
+    #[test]
+    fn too_few_for_a_test() {
+        let scenes = |n: usize| -> Vec<String> {
+            let names: Vec<String> = (0..n).map(|i| format!("s{i}")).collect();
+            let scenes: Vec<(&str, Option<f64>)> = names.iter().map(|s| (s.as_str(), Some(10.0))).collect();
+            let runs = |s: &String| [run(s, "far", 0, 10.3), run(s, "near", 0, 10.1)];
+            let results = results(&["far", "near"], &scenes, names.iter().flat_map(runs).collect());
+            let grid = Grid::new(&results);
+            let sentences = against_best(&grid, &Pairs::new(&grid, Measure::Gap));
+            sentences.iter().map(|s| s.english(&["far", "near"])).collect()
+        };
+        // One test of n scenes: p ≥ 2/2ⁿ, 0.0625 with five of them and 0.031 with six.
+        assert_eq!(
+            scenes(5),
+            ["near against far: too few scenes (5) for a test; median gap 1\u{a0}% against 3\u{a0}%, A₁₂ 1"]
+        );
+        assert_eq!(
+            scenes(6),
+            ["near is 3.0 [3.0, 3.0] times nearer the optimum than far (median gap, p = 0.031, 6 scenes)"]
+        );
+        // Correction counts: with one test six pairs do, with three they do not, 3·2/2⁶ = 0.094.
+        let a = [1.0, 1.1, 1.2, 1.3, 1.4, 1.5];
+        let lines = said(&[("a", &a), ("b", &a.map(|g| 2.0 * g)), ("c", &a.map(|g| 3.0 * g))], Measure::Gap);
+        assert_eq!(
+            lines[3],
+            "a against b: too few pairs (6) for a test; median gap 1.25\u{a0}% against 2.5\u{a0}%, A₁₂ 1"
         );
     }
 

@@ -39,6 +39,17 @@ pub fn phrase(sentence: &Sentence, evidence: &Evidence<'_>, t: &Strings) -> Stri
             &key("phrase_alike", *measure),
             &[("a", name(best)), ("b", name(other)), ("p", &p_value(*p)), ("evidence", &weight(*pairs, *over, t))],
         ),
+        Sentence::TooFew { measure, best, other, medians, a12, pairs, over } => {
+            let few = match over {
+                Over::Repeats => "phrase_few_pairs",
+                Over::Scenes => "phrase_few_scenes",
+            };
+            let few = t.fill(few, &[("n", &format::count(*pairs as f64))]);
+            let [x, y] = medians.map(|v| value(*measure, v));
+            let a12 = a12.map_or(format::NONE.to_owned(), |share| format::significant(share, 2));
+            let common = [("a", name(best)), ("b", name(other)), ("few", few.as_str()), ("a12", a12.as_str())];
+            t.fill(&key("phrase_few", *measure), &[common.as_slice(), &[("x", &x), ("y", &y)]].concat())
+        }
         Sentence::Settled { measure, best, other, medians: [x, y] } => {
             let what = if x == y { "phrase_equal" } else { "phrase_settled" };
             let (x, y) = (value(*measure, *x), value(*measure, *y));
@@ -60,7 +71,7 @@ fn key(what: &str, measure: Measure) -> String {
 pub fn value(measure: Measure, value: f64) -> String {
     match measure {
         Measure::Gap => format::percent(value),
-        Measure::Length => format::significant(value, 4),
+        Measure::Length => format::significant(value, 6),
         Measure::Time => format::time(value),
     }
 }
@@ -98,8 +109,8 @@ mod tests {
     #[test]
     fn english_is_what_the_analysis_says() {
         // Gaps that differ, are equal, and fail; several scenes and one.
-        for (scenes, repeats) in [(&["one"][..], 12), (&["one", "two", "three", "four", "five", "six", "seven"][..], 3)]
-        {
+        let seven = ["one", "two", "three", "four", "five", "six", "seven"];
+        for (scenes, repeats) in [(&seven[..1], 12), (&seven[..1], 4), (&seven[..4], 3), (&seven[..], 3)] {
             let mut results = results(&["a", "b", "c"], scenes, repeats);
             for (k, r) in results.runs.iter_mut().enumerate() {
                 r.time_us += k as f64;
