@@ -3,8 +3,10 @@
 //! How good a run was is the judge's word on its final path: one that is not valid was never any good. When it
 //! became so good is read off the planner's own progress, where its cost is a length (of no valid run the final
 //! cost differs from the length by more than 10⁻⁵ of it); otherwise, and at the latest, it did when the run ended.
+//! Runs that did not live to tell their evaluations are charged as in [`super::spent`].
 
 use super::grid::Grid;
+use super::spent::Evaluations;
 use crate::results::RunRecord;
 
 /// A valid path's cost that differs from its length by more than this share is not a length: arcs stored as
@@ -54,6 +56,8 @@ pub struct Curves {
     /// Cells as in the grid; none of the scenes without optimum.
     cells: Vec<Vec<Course>>,
     with_optimum: Vec<usize>,
+    /// For each planner whether the evaluations of all its runs are known.
+    counted: Vec<bool>,
 }
 
 impl Curves {
@@ -61,16 +65,19 @@ impl Curves {
     pub fn new(grid: &Grid<'_>) -> Self {
         let (planners, scenes) = (grid.planners.len(), grid.scenes.len());
         let mut cells = Vec::with_capacity(planners * scenes);
+        let mut counted = Vec::with_capacity(planners);
         for planner in 0..planners {
             let lengths = grid.runs_in(planner, None).all(cost_is_length);
+            let spent = Evaluations::of(&grid.planners[planner], grid.runs_in(planner, None));
+            counted.push(grid.runs_in(planner, None).all(|run| spent.spent(run).is_some()));
             for (s, scene) in grid.scenes.iter().enumerate() {
                 let runs = if scene.optimum.length.is_some() { grid.runs(planner, s) } else { &[] };
                 let optimum = scene.optimum.length.unwrap_or(f64::NAN);
-                cells.push(runs.iter().map(|run| course(run, optimum, lengths)).collect());
+                cells.push(runs.iter().map(|run| course(run, spent.spent(run), optimum, lengths)).collect());
             }
         }
         let with_optimum = (0..scenes).filter(|s| grid.scenes[*s].optimum.length.is_some()).collect();
-        Self { scenes, planners, cells, with_optimum }
+        Self { scenes, planners, cells, with_optimum, counted }
     }
 
     /// The scenes whose optimum is known: no other enters.
@@ -81,6 +88,11 @@ impl Curves {
     /// Planners of the grid.
     pub(super) fn planners(&self) -> usize {
         self.planners
+    }
+
+    /// Whether it is known how much of `effort` every run of the planner took.
+    pub(super) fn known(&self, planner: usize, effort: Effort) -> bool {
+        effort == Effort::Time || self.counted[planner]
     }
 
     /// The runs of one planner in one scene or (`None`) in all with an optimum.
@@ -98,8 +110,8 @@ pub(crate) fn cost_is_length(run: &RunRecord) -> bool {
     }
 }
 
-fn course(run: &RunRecord, optimum: f64, lengths: bool) -> Course {
-    let end = Step { evaluations: run.evaluations as f64, time_us: run.time_us, gap: f64::INFINITY };
+fn course(run: &RunRecord, spent: Option<f64>, optimum: f64, lengths: bool) -> Course {
+    let end = Step { evaluations: spent.unwrap_or(run.evaluations as f64), time_us: run.time_us, gap: f64::INFINITY };
     let Some(length) = run.length.filter(|_| run.valid) else { return Course { steps: Vec::new(), end } };
     let gap = (length / optimum - 1.0).max(0.0);
     let mut steps: Vec<Step> = Vec::new();

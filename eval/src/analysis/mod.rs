@@ -11,6 +11,7 @@ pub mod noise;
 pub mod pairs;
 pub mod ranking;
 pub mod sentences;
+mod spent;
 mod summary;
 pub mod targets;
 

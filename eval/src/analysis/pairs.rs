@@ -50,12 +50,20 @@ pub struct Pair {
     pub test: Option<SignedRank>,
     /// Its p-value after Holm's correction over all pairs of this measure.
     pub p: Option<f64>,
+    /// The least p-value that so many blocks and tests allow, min(1, m·2·2⁻ⁿ) with n blocks and m tests: all
+    /// differences of one sign. Where it is no evidence, nothing that the planners do is.
+    pub least_p: Option<f64>,
     /// Vargha and Delaney's A₁₂: how probably a run of a beats one of b in the same scene, ties halved, mean over
     /// scenes; `None` where they share no scene.
     pub a12: Option<f64>,
 }
 
 impl Pair {
+    /// A₁₂ of `planner`, a or b, over the other one.
+    pub fn a12_of(&self, planner: usize) -> Option<f64> {
+        if planner == self.a { self.a12 } else { self.a12.map(|share| 1.0 - share) }
+    }
+
     /// The medians, those of `planner`, a or b, first.
     pub fn medians_of(&self, planner: usize) -> [f64; 2] {
         let [x, y] = self.medians;
@@ -94,9 +102,9 @@ impl Pairs {
             .map(|(a, b)| Pair { a12: wins.share(a, b), ..compare(&blocks, &bootstrap, measure, a, b) })
             .collect();
         let tested: Vec<f64> = pairs.iter().filter_map(|pair| pair.test.map(|t| t.p)).collect();
-        let mut adjusted = holm(&tested).into_iter();
-        for pair in pairs.iter_mut().filter(|pair| pair.test.is_some()) {
-            pair.p = adjusted.next();
+        for (pair, p) in pairs.iter_mut().filter(|pair| pair.test.is_some()).zip(holm(&tested)) {
+            pair.p = Some(p);
+            pair.least_p = Some((2.0 * tested.len() as f64 * libm::exp2(-(pair.blocks as f64))).min(1.0));
         }
         Self { measure, over: blocks.over, pairs }
     }
@@ -123,7 +131,7 @@ fn compare(blocks: &Blocks, bootstrap: &Bootstrap, measure: Measure, a: usize, b
     let differences: Vec<f64> = x.iter().zip(&y).map(difference).collect();
     let ratio = if time { ratio_of_times(&x, &y) } else { bootstrap.ratio(a, b, &x, &y, medians) };
     let test = if settled { None } else { signed_rank(&differences, Zeros::Pratt) };
-    Pair { a, b, blocks: x.len(), medians, ratio, test, p: None, a12: None }
+    Pair { a, b, blocks: x.len(), medians, ratio, test, p: None, least_p: None, a12: None }
 }
 
 fn ratio_of_times(x: &[f64], y: &[f64]) -> Option<Ratio> {
@@ -218,6 +226,7 @@ mod tests {
         assert!([ratio.value, low, high].iter().all(|r| (r - 4.0).abs() < 4e-7), "{ratio:?}");
         // Ten differences of one sign: p = 2/2¹⁰, the least of three, times three.
         assert_eq!((pair.test.unwrap().p, pair.p), (2.0 / 1024.0, Some(6.0 / 1024.0)));
+        assert_eq!(pair.least_p, pair.p);
         assert!(pairs.pairs.iter().all(|p| p.p.is_some_and(|q| q <= 6.0 / 1024.0)));
     }
 
@@ -261,7 +270,7 @@ mod tests {
         let pairs = Pairs::new(&Grid::new(&results), Measure::Gap);
         let pair = &pairs.pairs[0];
         // Two of 2⁴ signs, however many repeats.
-        assert_eq!((pairs.over, pair.blocks, pair.p), (Over::Scenes, 4, Some(0.125)));
+        assert_eq!((pairs.over, pair.blocks, pair.p, pair.least_p), (Over::Scenes, 4, Some(0.125), Some(0.125)));
         assert_eq!(pair.ratio.unwrap().interval, None);
     }
 

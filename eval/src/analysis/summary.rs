@@ -1,5 +1,6 @@
 //! The rows of the comparison table.
 
+use super::spent::Evaluations;
 use crate::results::{Results, RunRecord, SceneResult, SceneSet};
 use crate::statistics::{median, quantile};
 
@@ -24,7 +25,8 @@ pub struct Summary {
     pub gap_median: Option<f64>,
     /// Median wall time of all runs, µs.
     pub time_us_median: f64,
-    /// Median number of evaluations of all runs.
+    /// Median number of evaluations of all runs. One that crashed, was stopped or ended in an error without telling
+    /// counts with the planner's budget of them, else with the most of its runs, else with +∞.
     pub evaluations_median: f64,
     /// Median of the planner's own objective, as it counts it, +∞ for a run without a valid path; `None` where no run
     /// tells one.
@@ -60,6 +62,8 @@ fn in_scene(results: &Results, planner: &str, scene: &SceneResult) -> Option<Sum
     let runs: Vec<&RunRecord> = results.runs_of(planner, Some(name)).collect();
     let of = |f: &dyn Fn(&RunRecord) -> f64| runs.iter().map(|r| f(r)).collect::<Vec<f64>>();
     let lengths = of(&counted_length);
+    let info = results.planners.iter().find(|p| p.label == planner)?;
+    let evaluations = Evaluations::of(info, results.runs_of(planner, None));
     let gaps = scene.optimum.length.map(|_| of(&|r| r.gap.unwrap_or(f64::INFINITY)));
     Some(Summary {
         planner: planner.to_owned(),
@@ -71,7 +75,7 @@ fn in_scene(results: &Results, planner: &str, scene: &SceneResult) -> Option<Sum
         length_best: lengths.iter().copied().fold(f64::INFINITY, f64::min),
         gap_median: gaps.as_deref().and_then(median),
         time_us_median: median(&of(&|r| r.time_us))?,
-        evaluations_median: median(&of(&|r| r.evaluations as f64))?,
+        evaluations_median: median(&of(&|r| evaluations.spent(r).unwrap_or(f64::INFINITY)))?,
         cost_median: runs.iter().any(|r| r.cost.is_some()).then(|| median(&of(&counted_cost))).flatten(),
     })
 }
@@ -100,6 +104,7 @@ fn over_scenes(planner: &str, scenes: &[Summary]) -> Option<Summary> {
 mod tests {
     use super::super::testing::{results, run};
     use super::*;
+    use crate::results::RunStatus;
 
     #[test]
     fn tuning_scenes_stand_alone() {
@@ -110,6 +115,16 @@ mod tests {
         assert_eq!((all.runs, all.length_median), (1, 11.0));
         let tuning = summarise(&results, "a", Some("t")).unwrap();
         assert_eq!((tuning.runs, tuning.length_median, tuning.gap_median), (1, f64::INFINITY, None));
+    }
+
+    #[test]
+    fn crashes_count_with_evaluations() {
+        let gone =
+            |repeat| RunRecord { status: RunStatus::Crashed, evaluations: 0, ..run("s", "a", repeat, f64::INFINITY) };
+        let scenes = [("s", Some(10.0))];
+        let of = |runs| summarise(&results(&["a"], &scenes, runs), "a", None).unwrap().evaluations_median;
+        assert_eq!(of(vec![run("s", "a", 0, 11.0), gone(1), gone(2)]), 100.0);
+        assert_eq!(of(vec![gone(0), gone(1)]), f64::INFINITY);
     }
 
     #[test]

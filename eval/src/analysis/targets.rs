@@ -40,11 +40,16 @@ pub struct Ert {
     pub runs: usize,
 }
 
-/// Expected running times: for each planner, one for each target. In one scene, or of the runs of all together.
+/// Expected running times: for each planner, one for each target. In one scene, or of the runs of all together; of no
+/// runs where it is not known what the planner's runs spent.
+///
+/// Runs that crashed, were stopped or ended in an error without telling their evaluations are charged the planner's
+/// budget of evaluations, else the most that any of its runs made; where neither is known there is no expected number.
 pub fn ert(curves: &Curves, scene: Option<usize>, targets: &[f64], effort: Effort) -> Vec<Vec<Ert>> {
     let mut resamples = BTreeMap::new();
     let mut row = |planner: usize| {
-        let courses: Vec<&Course> = curves.of(planner, scene).collect();
+        let known = curves.known(planner, effort);
+        let courses: Vec<&Course> = curves.of(planner, scene).filter(|_| known).collect();
         let resamples =
             resamples.entry(courses.len()).or_insert_with(|| Resamples::new(courses.len(), RESAMPLES, SEED));
         targets.iter().map(|t| one(&courses, *t, effort, resamples)).collect()
@@ -80,11 +85,12 @@ impl Ecdf {
     }
 }
 
-/// The distribution of one planner's efforts over runs and `targets`, in one scene or over all.
+/// The distribution of one planner's efforts over runs and `targets`, in one scene or over all; without any pair where
+/// it is not known what its runs spent.
 pub fn ecdf(curves: &Curves, planner: usize, scene: Option<usize>, targets: &[f64], effort: Effort) -> Ecdf {
     let mut pairs = 0;
     let mut efforts = Vec::new();
-    for course in curves.of(planner, scene) {
+    for course in curves.of(planner, scene).filter(|_| curves.known(planner, effort)) {
         pairs += targets.len();
         efforts.extend(targets.iter().filter_map(|t| hit(course, *t, effort)));
     }
@@ -103,7 +109,7 @@ mod tests {
     use super::super::grid::Grid;
     use super::super::testing::{progress, results, run};
     use super::*;
-    use crate::results::{Results, RunRecord};
+    use crate::results::{Results, RunRecord, RunStatus};
 
     const INF: f64 = f64::INFINITY;
 
@@ -142,6 +148,30 @@ mod tests {
         assert!(10.0 < low && low < 155.0 && high == INF, "{low} {high}");
         let time = ert(&curves, None, &[0.1], Effort::Time);
         assert_eq!(time[0][0].value, (400.0 + 3000.0) / 2.0);
+    }
+
+    #[test]
+    fn crashes_are_not_free() {
+        // One run in two crashes after who knows how much.
+        let gone = |repeat| RunRecord {
+            status: RunStatus::Crashed,
+            evaluations: 0,
+            time_us: 300.0,
+            ..run("s", "a", repeat, INF)
+        };
+        let good = |repeat| run("s", "a", repeat, 10.5);
+        let scenes = [("s", Some(10.0))];
+        let of = |results: &Results, effort| ert(&Curves::new(&Grid::new(results)), None, &[0.1], effort)[0][0];
+        let mut half = results(&["a"], &scenes, vec![good(0), gone(1), good(2), gone(3)]);
+        assert_eq!(of(&half, Effort::Evaluations).value, 200.0, "the most of its runs, 100, for each crash");
+        assert_eq!(of(&half, Effort::Time).value, (1000.0 + 300.0 + 1000.0 + 300.0) / 2.0);
+        half.planners[0].budget.evaluations = Some(500);
+        assert_eq!(of(&half, Effort::Evaluations).value, 600.0);
+        // A planner that never tells: solved without a count, or crashed.
+        let silent = |run: RunRecord| RunRecord { evaluations: 0, ..run };
+        let never = results(&["a"], &scenes, vec![silent(good(0)), gone(1)]);
+        assert_eq!(of(&never, Effort::Evaluations).runs, 0);
+        assert_eq!(of(&never, Effort::Time).runs, 2);
     }
 
     #[test]

@@ -60,9 +60,9 @@ fn summaries_count_failures_as_infinite() {
     let campaign = campaign(vec![entry("straight", straight), entry("detour", detour)]);
     let expected = "\
 planner,scene,runs,valid,length_median,length_q1,length_q3,length_best,gap_median,time_us_median,evaluations_median,cost_median
-straight,,1,0,inf,inf,inf,inf,inf,0.25,0,
+straight,,1,0,inf,inf,inf,inf,inf,0.25,inf,
 detour,,2,1,inf,inf,inf,10.333333333333334,inf,0.25,4010,inf
-straight,a-scene,1,0,inf,inf,inf,inf,inf,0.25,0,
+straight,a-scene,1,0,inf,inf,inf,inf,inf,0.25,inf,
 detour,a-scene,2,1,inf,inf,inf,10.333333333333334,inf,0.25,4010,inf
 ";
     assert_eq!(summary_csv(&results(&campaign)), expected);

@@ -197,7 +197,9 @@ fn size(evidence: &Evidence<'_>, t: &Strings) -> String {
 fn quotes(evidence: &Evidence<'_>, t: &Strings) -> Vec<String> {
     let mut quality = against_best(&evidence.grid, &evidence.quality);
     let rival = |s: &Sentence| match s {
-        Sentence::Better { medians, .. } | Sentence::Settled { medians, .. } => medians[1],
+        Sentence::Better { medians, .. } | Sentence::TooFew { medians, .. } | Sentence::Settled { medians, .. } => {
+            medians[1]
+        }
         Sentence::Alike { best, other, .. } => {
             evidence.quality.of(*best, *other).map_or(f64::INFINITY, |pair| pair.medians_of(*other)[0])
         }

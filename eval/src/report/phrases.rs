@@ -20,8 +20,8 @@ pub fn phrase(sentence: &Sentence, evidence: &Evidence<'_>, t: &Strings) -> Stri
                 ("interval", &format::share_interval(*low, *high)),
             ],
         ),
-        Sentence::Better { measure, better, worse, ratio, medians, p, pairs, over } => {
-            let (p, evidence) = (p_value(*p), weight(*pairs, *over, t));
+        Sentence::Better { measure, better, worse, ratio, medians, p, pairs, over, failures } => {
+            let (p, evidence) = (p_value(*p), weight(*pairs, *over, *failures, t));
             let common = [("a", name(better)), ("b", name(worse)), ("p", p.as_str()), ("evidence", evidence.as_str())];
             match ratio {
                 Some(ratio) => {
@@ -35,10 +35,27 @@ pub fn phrase(sentence: &Sentence, evidence: &Evidence<'_>, t: &Strings) -> Stri
                 }
             }
         }
-        Sentence::Alike { measure, best, other, p, pairs, over } => t.fill(
+        Sentence::Alike { measure, best, other, p, pairs, over, failures } => t.fill(
             &key("phrase_alike", *measure),
-            &[("a", name(best)), ("b", name(other)), ("p", &p_value(*p)), ("evidence", &weight(*pairs, *over, t))],
+            &[
+                ("a", name(best)),
+                ("b", name(other)),
+                ("p", &p_value(*p)),
+                ("evidence", &weight(*pairs, *over, *failures, t)),
+            ],
         ),
+        Sentence::TooFew { measure, best, other, medians, a12, pairs, over, failures } => {
+            let few = match over {
+                Over::Repeats => "phrase_few_pairs",
+                Over::Scenes => "phrase_few_scenes",
+            };
+            let few = t.fill(few, &[("n", &format::count(*pairs as f64))]);
+            let [x, y] = medians.map(|v| value(*measure, v));
+            let a12 = a12.map_or(format::NONE.to_owned(), |share| format::significant(share, 2));
+            let common = [("a", name(best)), ("b", name(other)), ("few", few.as_str()), ("a12", a12.as_str())];
+            t.fill(&key("phrase_few", *measure), &[common.as_slice(), &[("x", &x), ("y", &y)]].concat())
+                + counted(*failures, t)
+        }
         Sentence::Settled { measure, best, other, medians: [x, y] } => {
             let what = if x == y { "phrase_equal" } else { "phrase_settled" };
             let (x, y) = (value(*measure, *x), value(*measure, *y));
@@ -60,7 +77,7 @@ fn key(what: &str, measure: Measure) -> String {
 pub fn value(measure: Measure, value: f64) -> String {
     match measure {
         Measure::Gap => format::percent(value),
-        Measure::Length => format::significant(value, 4),
+        Measure::Length => format::significant(value, 6),
         Measure::Time => format::time(value),
     }
 }
@@ -79,12 +96,16 @@ pub fn p_value(p: f64) -> String {
     if p < 0.001 { "p < 0.001".to_owned() } else { format!("p = {}", format::significant(p, 2)) }
 }
 
-fn weight(pairs: usize, over: Over, t: &Strings) -> String {
+fn weight(pairs: usize, over: Over, failures: bool, t: &Strings) -> String {
     let key = match over {
         Over::Repeats => "phrase_pairs",
         Over::Scenes => "phrase_scenes",
     };
-    t.fill(key, &[("n", &format::count(pairs as f64))])
+    t.fill(key, &[("n", &format::count(pairs as f64))]) + counted(failures, t)
+}
+
+fn counted(failures: bool, t: &Strings) -> &str {
+    if failures { t.get("phrase_failures") } else { "" }
 }
 
 #[cfg(test)]
@@ -98,11 +119,12 @@ mod tests {
     #[test]
     fn english_is_what_the_analysis_says() {
         // Gaps that differ, are equal, and fail; several scenes and one.
-        for (scenes, repeats) in [(&["one"][..], 12), (&["one", "two", "three", "four", "five", "six", "seven"][..], 3)]
-        {
+        let seven = ["one", "two", "three", "four", "five", "six", "seven"];
+        for (scenes, repeats) in [(&seven[..1], 12), (&seven[..1], 4), (&seven[..4], 3), (&seven[..], 3)] {
             let mut results = results(&["a", "b", "c"], scenes, repeats);
             for (k, r) in results.runs.iter_mut().enumerate() {
                 r.time_us += k as f64;
+                r.valid &= k != 1;
             }
             let evidence = Evidence::new(&results);
             let names = ["a", "b", "c"];
