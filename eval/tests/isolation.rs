@@ -284,7 +284,8 @@ fn isolation_changes_nothing_but_times() {
 #[cfg(target_os = "linux")]
 fn a_killed_bench_leaves_no_process() {
     let place = Place::new("killed");
-    place.comparison("killed", &[("hangs", "echo $$ > hang.pid; exec sleep 1000", "")]);
+    // Of the three processes only the last is looked for: neither bench nor tether has started it.
+    place.comparison("killed", &[("hangs", "sleep 1000 & echo $! > hang.pid; wait", "")]);
     let mut bench = place
         .command(&["run", "killed.toml", "--out", "out", "--quiet", "--isolate", "--planner", "hangs"])
         .stderr(Stdio::null())
@@ -298,6 +299,45 @@ fn a_killed_bench_leaves_no_process() {
     bench.kill().unwrap();
     bench.wait().unwrap();
     assert!(gone(&place, "hang.pid"));
+}
+
+/// Makes `touchline run many.toml` with at most `files` open files in the bench.
+fn run_with_files(place: &Place, files: u32, more: &str) -> Output {
+    let line = format!("ulimit -n {files}; exec \"$0\" run many.toml --out out --quiet {more}");
+    let mut shell = Command::new("sh");
+    shell.args(["-c", &line, env!("CARGO_BIN_EXE_touchline")]).current_dir(&place.0).output().unwrap()
+}
+
+#[test]
+fn processes_are_few_and_none_is_missed() {
+    let place = Place::new("many");
+    let labels: Vec<String> = (0..40).map(|n| format!("p{n}")).collect();
+    let planners: Vec<_> = labels.iter().map(|label| (label.as_str(), GOOD, "")).collect();
+    place.comparison("many", &planners);
+    // 32 processes have 96 pipes, and 40 would have 120.
+    let output = run_with_files(&place, 118, "");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let runs = place.runs("out");
+    assert_eq!(runs.len(), 43);
+    assert!(runs.iter().all(|(label, runs)| label == "straight-line" || runs.iter().all(|run| run.valid)));
+}
+
+#[test]
+fn a_bench_without_means_is_no_result() {
+    let place = Place::new("poor");
+    let labels: Vec<String> = (0..10).map(|n| format!("p{n}")).collect();
+    let planners: Vec<_> = labels.iter().map(|label| (label.as_str(), GOOD, "")).collect();
+    place.comparison("many", &planners);
+    let output = run_with_files(&place, 34, "");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("error: cannot start [\"sh\", \"p") && said.contains("Too many open files"), "{said}");
+    assert!(said.contains("runs are kept in out; allow more open files"), "{said}");
+    assert!(said.contains("touchline run --out out --resume"), "{said}");
+    let kept = place.runs("out");
+    assert!(kept.values().flatten().all(|run| run.status == RunStatus::Solved), "{kept:?}");
+    place.ok(&["run", "many.toml", "--out", "out", "--quiet", "--resume"]);
+    assert!(labels.iter().all(|label| place.runs("out")[label].iter().all(|run| run.valid)));
 }
 
 #[test]

@@ -47,6 +47,21 @@ pub struct Failure {
     pub time_us: f64,
 }
 
+/// Why there is no answer, and whose fault that is.
+#[derive(Debug)]
+pub enum Trouble {
+    /// The planner's: the run's result.
+    Planner(Failure),
+    /// The bench's, which has no means to start a process.
+    Bench(io::Error),
+}
+
+impl From<Failure> for Trouble {
+    fn from(failure: Failure) -> Self {
+        Self::Planner(failure)
+    }
+}
+
 /// A running process.
 pub struct Process {
     child: Child,
@@ -66,7 +81,7 @@ enum Line {
 }
 
 impl Process {
-    /// Starts `program` in `folder`. It must end on the thread that starts it.
+    /// Starts `program` in `folder`.
     pub fn start(program: impl AsRef<OsStr>, arguments: &[impl AsRef<OsStr>], folder: &Path) -> io::Result<Self> {
         let mut command = tether::command(program, arguments)?;
         command.current_dir(folder).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -78,23 +93,25 @@ impl Process {
             unreachable!("all three are piped")
         };
         let (requests, waiting) = mpsc::channel::<Vec<u8>>();
-        // A closed pipe shows on the other side.
-        thread::spawn(move || waiting.iter().try_for_each(|request| stdin.write_all(&request)));
         // Whoever talks without being asked is stopped by the full pipe.
         let (sender, lines) = mpsc::sync_channel(1);
-        thread::spawn(move || read_lines(stdout, &sender));
         let words = Arc::new(Mutex::new(VecDeque::with_capacity(WORDS)));
         let (speaking, mute) = mpsc::channel();
         let kept = Arc::clone(&words);
-        thread::spawn(move || {
+        // It ends with this value, if a thread is not to be had.
+        let process = Self { child, requests: Some(requests), lines, words, mute, ended: None };
+        // A closed pipe shows on the other side.
+        background(move || drop(waiting.iter().try_for_each(|request| stdin.write_all(&request))))?;
+        background(move || read_lines(stdout, &sender))?;
+        background(move || {
             keep_last(&mut stderr, &kept);
             drop(speaking);
-        });
-        Ok(Self { child, requests: Some(requests), lines, words, mute, ended: None })
+        })?;
+        Ok(process)
     }
 
     /// Sends the line `request` and waits for one line, which is returned with the time that both took, µs.
-    pub fn ask(&mut self, request: Vec<u8>, bounds: Bounds) -> Result<(Vec<u8>, f64), Failure> {
+    pub fn ask(&mut self, request: Vec<u8>, bounds: Bounds) -> Result<(Vec<u8>, f64), Trouble> {
         let began = Instant::now();
         if let Some(requests) = &self.requests {
             // Fails when the process has closed its standard input: then it will not answer either.
@@ -104,7 +121,9 @@ impl Process {
             let left = bounds.time.saturating_sub(began.elapsed());
             if left.is_zero() {
                 let limit = bounds.time.as_secs_f64();
-                return Err(self.end(RunStatus::Timeout, began, format!("no answer within its hard limit, {limit} s")));
+                return Err(self
+                    .end(RunStatus::Timeout, began, format!("no answer within its hard limit, {limit} s"))
+                    .into());
             }
             let answer = match self.lines.recv_timeout(left.min(TICK)) {
                 // What it wrote before it died may still be on its way.
@@ -116,13 +135,13 @@ impl Process {
                 && let Some(used) = self.peak_mib().filter(|used| *used > most as f64)
             {
                 let error = format!("{used:.1} MiB of memory; expected at most memory_mb = {most}");
-                return Err(self.end(RunStatus::OutOfMemory, began, error));
+                return Err(self.end(RunStatus::OutOfMemory, began, error).into());
             }
             match answer {
                 Ok(Line::Whole(line)) => return Ok((line, time_us)),
                 Ok(Line::TooLong) => {
                     let error = format!("a line of more than {} MiB; expected an answer", LONGEST >> 20);
-                    return Err(self.end(RunStatus::Error, began, error));
+                    return Err(self.end(RunStatus::Error, began, error).into());
                 }
                 Err(RecvTimeoutError::Timeout) if !self.is_dead() => {}
                 Err(_) => return Err(self.crashed(began)),
@@ -131,19 +150,22 @@ impl Process {
     }
 
     /// Its death by its own doing, in words.
-    fn crashed(&mut self, began: Instant) -> Failure {
+    fn crashed(&mut self, began: Instant) -> Trouble {
         let died = self.dies_within(GRACE);
         let mut failure = self.end(RunStatus::Crashed, began, String::new());
+        let words = self.last_words();
+        if died && tether::was_short(self.ended, &words) {
+            return Trouble::Bench(io::Error::other(words));
+        }
         failure.error = match self.ended {
             Some(status) if died => format!("its process ended before it answered: {status}"),
             _ => "it closed its standard output before it answered".to_owned(),
         };
-        let words = self.last_words();
         if !words.is_empty() {
             failure.error.push_str("; its last words: ");
             failure.error.push_str(&words);
         }
-        failure
+        failure.into()
     }
 
     fn end(&mut self, status: RunStatus, began: Instant, error: String) -> Failure {
@@ -217,6 +239,11 @@ impl Drop for Process {
             self.kill();
         }
     }
+}
+
+/// Unlike [`thread::spawn`], does not panic where there is no thread to be had.
+fn background(work: impl FnOnce() + Send + 'static) -> io::Result<()> {
+    thread::Builder::new().spawn(work).map(drop)
 }
 
 fn read_lines(stdout: impl Read, sender: &SyncSender<Line>) {
