@@ -2,6 +2,7 @@
 
 use std::ffi::OsString;
 use std::path::Path;
+use std::time::Duration;
 
 use planner_api::{Plan, Planner};
 use serde_json::value::RawValue;
@@ -15,6 +16,10 @@ use crate::error::Error;
 use crate::recorder::Recorder;
 use crate::results::{RunRecord, RunStatus};
 use crate::runner;
+
+/// What the first request to a new process of an external planner may take on top of its hard limit: interpreters and
+/// their libraries load slowly on a cold or busy machine.
+const START: Duration = Duration::from_secs(60);
 
 /// A planner's place: in this process, or in one of its own that is started when it is needed and again after it died.
 ///
@@ -136,14 +141,16 @@ impl Apart {
         arena: &Arena,
         record: &mut RunRecord,
     ) -> Result<(), Trouble> {
-        let bounds = Bounds { time: entry.hard_limit(), memory_mb: entry.limits.memory_mb };
+        let external = matches!(entry.maker, Maker::External(_));
+        let start = if external && self.process.is_none() { START } else { Duration::ZERO };
+        let bounds = Bounds { time: entry.hard_limit(), start, memory_mb: entry.limits.memory_mb };
         if bounds.memory_mb.is_some() && !cfg!(target_os = "linux") {
             let error = "memory_mb: only Linux tells how much memory a process holds".to_owned();
             return Err(Failure { status: RunStatus::Error, error, time_us: 0.0 }.into());
         }
         let process = match &mut self.process {
             Some(process) => process,
-            None => self.process.insert(start(entry)?),
+            None => self.process.insert(begin(entry)?),
         };
         let began = std::time::Instant::now();
         if self.scene.as_ref().is_none_or(|(known, _)| *known != scene) {
@@ -151,7 +158,6 @@ impl Apart {
         }
         let Some((_, text)) = &self.scene else { unreachable!("set above") };
         self.last_id += 1;
-        let external = matches!(entry.maker, Maker::External(_));
         let request = Request {
             protocol: VERSION,
             id: self.last_id,
@@ -164,7 +170,9 @@ impl Apart {
         let mut line = serde_json::to_vec(&request).expect("finite numbers and text");
         line.push(b'\n');
         let (line, round_trip) = process.ask(line, bounds)?;
-        let answer = Answer::read(&line, self.last_id).map_err(|fault| Failure {
+        let answer = Answer::read(&line, self.last_id);
+        let answer = if external { answer.and_then(|answer| answer.vetted(round_trip)) } else { answer };
+        let answer = answer.map_err(|fault| Failure {
             status: RunStatus::Error,
             error: format!("{fault}; expected {EXPECTED}; it said {}", beginning(&line)),
             time_us: round_trip,
@@ -179,7 +187,7 @@ impl Apart {
     }
 }
 
-fn start(entry: &PlannerEntry) -> Result<Process, Trouble> {
+fn begin(entry: &PlannerEntry) -> Result<Process, Trouble> {
     let process = match &entry.maker {
         Maker::External(external) => {
             let (program, arguments) = external.command.split_first().expect("checked when it was read");
