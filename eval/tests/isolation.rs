@@ -119,6 +119,8 @@ const BAD: &[Bad] = {
     use RunStatus::{Crashed, Error, Solved, Timeout};
     &[
         ("aborts", "echo 'no more memory for me' >&2; kill -ABRT $$", "", Crashed, "SIGABRT"),
+        ("segfaults", "kill -SEGV $$", "", Crashed, "SIGSEGV"),
+        ("quits", "exit 75", "", Crashed, "exit status: 75"),
         ("explains", "echo 'division by zero' >&2; exit 3", "", Crashed, "its last words: division by zero"),
         ("hangs", "sleep 1000", "hard_limit_ms = 300", Timeout, "no answer within its hard limit, 0.3 s"),
         (

@@ -214,17 +214,15 @@ impl Process {
     /// `VmHWM` of `proc_pid_status(5)`; memory that processes share counts in each.
     #[cfg(target_os = "linux")]
     fn memory_mib(&self) -> Option<f64> {
-        use rustix::process::{Pid, getpgid};
-        let group = Pid::from_child(&self.child);
+        let group = self.child.id();
         let numbers = std::fs::read_dir("/proc").ok()?.flatten();
-        let numbers = numbers.filter_map(|entry| Pid::from_raw(entry.file_name().to_str()?.parse().ok()?));
+        let numbers = numbers.filter_map(|entry| entry.file_name().to_str()?.parse::<u32>().ok());
         // The group's leader is the tether.
-        let members = numbers.filter(|pid| *pid != group && getpgid(Some(*pid)) == Ok(group));
+        let members = numbers.filter(|pid| *pid != group && group_of(*pid) == Some(group));
         let (mut now, mut peak) = (0.0, 0.0_f64);
         for pid in members {
-            let status = std::fs::read_to_string(format!("/proc/{}/status", pid.as_raw_nonzero()));
             // Gone meanwhile, or dead and without memory.
-            let Ok(status) = status else { continue };
+            let Ok(status) = std::fs::read_to_string(format!("/proc/{pid}/status")) else { continue };
             now += mib(&status, "VmRSS:").unwrap_or(0.0);
             peak = peak.max(mib(&status, "VmHWM:").unwrap_or(0.0));
         }
@@ -274,6 +272,13 @@ impl Drop for Process {
             self.kill();
         }
     }
+}
+
+/// The process group of process `pid`: the third field after its name, which may hold anything. `proc_pid_stat(5)`.
+#[cfg(target_os = "linux")]
+fn group_of(pid: u32) -> Option<u32> {
+    let stat = std::fs::read_to_string(format!("/proc/{pid}/stat")).ok()?;
+    stat.rsplit_once(')')?.1.split_ascii_whitespace().nth(2)?.parse().ok()
 }
 
 /// The value of `key` in a status file of `/proc`, MiB.
