@@ -39,6 +39,14 @@ pub enum Error {
         /// What is the matter and what was expected.
         message: String,
     },
+    /// A process or thread could not be started for want of what the bench itself needs.
+    #[error("cannot start {what}: {source}")]
+    Start {
+        /// Its command, in words.
+        what: String,
+        /// Why.
+        source: std::io::Error,
+    },
     /// A campaign that cannot go on now.
     #[error("{source}\n{kept}; {}, then {what} with: {command}", remedy(source))]
     Interrupted {
@@ -58,6 +66,9 @@ pub enum Error {
 
 /// What to do first about an interruption.
 fn remedy(error: &Error) -> &'static str {
+    if let Error::Start { .. } = error {
+        return "allow more open files and processes, or use fewer --jobs";
+    }
     let full = match error {
         Error::Io { source, .. } => {
             matches!(source.kind(), ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge)

@@ -193,7 +193,7 @@ mod tests {
         let optima: Vec<_> = results.scenes.iter().map(|s| s.optimum.length).collect();
         runner::run(campaign, &optima, &Work { shard, ..Work::all(1) }, |run| {
             results.runs.push(run);
-            Ok::<(), ()>(())
+            Ok(())
         })
         .unwrap();
         results.runs.sort_by_key(key);

@@ -6,8 +6,10 @@
 //! each thread), which does not count. The timed call is `plan_into` alone.
 //! Judging and storing come after the clock has stopped. Every thread has its
 //! own planners, here or in processes of their own ([`Seat`]), so results but for
-//! times depend neither on the number of jobs nor on isolation.
+//! times depend neither on the number of jobs nor on isolation. Processes are
+//! kept, up to a bound; those that were not asked for the longest time end first.
 
+use std::collections::VecDeque;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc;
@@ -17,6 +19,7 @@ use planner_api::{Plan, Planner, Problem, Run, Status};
 
 use crate::campaign::{Arena, Campaign, micros};
 use crate::config::BudgetSpec;
+use crate::error::Error;
 use crate::recorder::Recorder;
 use crate::results::{RunRecord, RunStatus};
 use crate::verdict::{Fault, Judge};
@@ -24,37 +27,54 @@ use crate::work::Work;
 use crate::worker::Seat;
 use crate::{metrics, seeds};
 
+/// How many processes the bench keeps, all threads together: each holds three descriptors, of which many systems
+/// allow 1024 by default.
+const PROCESSES: usize = 256;
+/// How many of them one thread keeps.
+const PROCESSES_OF_A_THREAD: usize = 32;
+
 /// Makes the runs of `work` and hands each to `sink` on the calling thread, in no particular order. `optima` are the
-/// scenes' optimal lengths. Ends early with the sink's error.
-pub fn run<E>(
+/// scenes' optimal lengths.
+///
+/// # Errors
+/// Ends early with the sink's error, and when the bench has no means to start a process or thread.
+pub fn run(
     campaign: &Campaign,
     optima: &[Option<f64>],
     work: &Work,
-    mut sink: impl FnMut(RunRecord) -> Result<(), E>,
-) -> Result<(), E> {
+    mut sink: impl FnMut(RunRecord) -> Result<(), Error>,
+) -> Result<(), Error> {
     let units: Vec<(usize, u32)> = work.shard.units(campaign.arenas.len(), campaign.comparison.repeats).collect();
     if work.jobs == 1 {
         let mut worker = Worker::new(campaign, optima, work);
-        return units.iter().try_for_each(|(scene, repeat)| worker.unit(*scene, *repeat, &mut sink));
+        return units.iter().try_for_each(|(scene, repeat)| worker.unit(*scene, *repeat, &mut |run| sink(run?)));
     }
     let (next, stop) = (AtomicUsize::new(0), AtomicBool::new(false));
     std::thread::scope(|scope| {
         let (sender, receiver) = mpsc::channel();
         for _ in 0..work.jobs.min(units.len()) {
             let (sender, next, stop, units) = (sender.clone(), &next, &stop, &units);
-            scope.spawn(move || {
+            let work_on = move || {
                 let mut worker = Worker::new(campaign, optima, work);
                 while !stop.load(Ordering::Relaxed) {
-                    let mut send = |record| sender.send(record).map_err(drop);
+                    // Nothing comes after an error.
+                    let mut send = |run: Result<_, _>| {
+                        let last = run.is_err();
+                        sender.send(run).ok().filter(|()| !last).ok_or(())
+                    };
                     let Some((scene, repeat)) = units.get(next.fetch_add(1, Ordering::Relaxed)) else { break };
                     if worker.unit(*scene, *repeat, &mut send).is_err() {
                         break;
                     }
                 }
-            });
+            };
+            if let Err(source) = std::thread::Builder::new().spawn_scoped(scope, work_on) {
+                stop.store(true, Ordering::Relaxed);
+                return Err(Error::Start { what: format!("{} threads", work.jobs), source });
+            }
         }
         drop(sender);
-        let outcome = receiver.iter().try_for_each(&mut sink);
+        let outcome = receiver.iter().try_for_each(|run| sink(run?));
         stop.store(true, Ordering::Relaxed);
         outcome
     })
@@ -66,19 +86,22 @@ struct Worker<'c> {
     optima: &'c [Option<f64>],
     work: &'c Work,
     seats: Vec<Seat<'c>>,
+    /// Seats with a process, the one that was asked last at the end.
+    alive: VecDeque<usize>,
 }
 
 impl<'c> Worker<'c> {
     fn new(campaign: &'c Campaign, optima: &'c [Option<f64>], work: &'c Work) -> Self {
         let seats = campaign.comparison.planners.iter().map(|entry| Seat::new(entry, work.isolate)).collect();
-        Self { campaign, optima, work, seats }
+        Self { campaign, optima, work, seats, alive: VecDeque::new() }
     }
 
+    /// Makes the runs that are missing of one unit. The `sink` fails on an error.
     fn unit<E>(
         &mut self,
         scene: usize,
         repeat: u32,
-        sink: &mut impl FnMut(RunRecord) -> Result<(), E>,
+        sink: &mut impl FnMut(Result<RunRecord, Error>) -> Result<(), E>,
     ) -> Result<(), E> {
         let comparison = &self.campaign.comparison;
         let arena = &self.campaign.arenas[scene];
@@ -89,12 +112,29 @@ impl<'c> Worker<'c> {
             if self.work.done.contains(&(scene, index, repeat)) {
                 continue;
             }
-            let record = self.seats[index].run(scene, arena, seed);
-            let mut record = judged(record, &judge, self.optima[scene]);
-            record.repeat = repeat;
-            sink(record)?;
+            self.make_room(index);
+            let run = self.seats[index].run(scene, arena, seed).map(|run| {
+                let mut record = judged(run, &judge, self.optima[scene]);
+                record.repeat = repeat;
+                record
+            });
+            sink(run)?;
         }
         Ok(())
+    }
+
+    /// Ends processes until another may start, and remembers that it is the turn of seat `index`.
+    fn make_room(&mut self, index: usize) {
+        if self.seats[index].is_apart() {
+            let most = (PROCESSES / self.work.jobs).clamp(1, PROCESSES_OF_A_THREAD);
+            self.alive.retain(|seat| *seat != index);
+            while self.alive.len() >= most
+                && let Some(seat) = self.alive.pop_front()
+            {
+                self.seats[seat].rest();
+            }
+            self.alive.push_back(index);
+        }
     }
 }
 
@@ -216,7 +256,7 @@ mod tests {
         let mut runs = Vec::new();
         run(&campaign, &[Some(10.0), None], &Work::all(jobs), |r| {
             runs.push(r);
-            Ok::<(), ()>(())
+            Ok(())
         })
         .unwrap();
         runs.sort_by(|a, b| (&a.scene, &a.planner, a.repeat).cmp(&(&b.scene, &b.planner, b.repeat)));
@@ -276,7 +316,7 @@ mod tests {
         run(&campaign(vec![patient]), &[None, None], &Work::all(1), |r| {
             assert_eq!(r.status, RunStatus::BudgetSpent);
             times.push(r.time_us);
-            Ok::<(), ()>(())
+            Ok(())
         })
         .unwrap();
         // The clock starts a moment before the deadline is set, so a run lasts at least the budget; the
@@ -290,9 +330,9 @@ mod tests {
             let mut seen = 0;
             let outcome = run(&campaign(vec![entry("detour", detour)]), &[None, None], &Work::all(jobs), |_| {
                 seen += 1;
-                if seen == 3 { Err("disk full") } else { Ok(()) }
+                if seen == 3 { Err(Error::Usage("disk full".to_owned())) } else { Ok(()) }
             });
-            assert_eq!((outcome, seen), (Err("disk full"), 3));
+            assert_eq!((outcome.unwrap_err().to_string(), seen), ("disk full".to_owned(), 3));
         }
     }
 }

@@ -92,7 +92,7 @@ mod tests {
             run.gap = run.gap.map(|_| 0.0625);
             run.length = run.length.map(|_| 10.890_625);
             results.runs.push(run);
-            Ok::<(), ()>(())
+            Ok(())
         })
         .unwrap();
         let expected = "\

@@ -96,7 +96,7 @@ pub fn runs_of(campaign: &Campaign) -> Vec<RunRecord> {
     let optima = vec![None; campaign.arenas.len()];
     runner::run(campaign, &optima, &Work::all(1), |r| {
         runs.push(r);
-        Ok::<(), ()>(())
+        Ok(())
     })
     .unwrap();
     runs.sort_by(|a, b| (&a.scene, &a.planner, a.repeat).cmp(&(&b.scene, &b.planner, b.repeat)));

@@ -116,7 +116,7 @@ fn two_jobs_do_nearly_twice_the_work() {
     let campaign = place.campaign("pso", 400);
     let seconds = |jobs| {
         let began = Instant::now();
-        runner::run(&campaign, &[None], &Work::all(jobs), |_| Ok::<(), ()>(())).unwrap();
+        runner::run(&campaign, &[None], &Work::all(jobs), |_| Ok(())).unwrap();
         began.elapsed().as_secs_f64()
     };
     // Best of three: others' work only ever makes it slower.

@@ -107,6 +107,11 @@ fn gone(place: &Place, file: &str) -> bool {
 const GOOD: &str = r#"echo "{\"id\":$id,\"status\":\"solved\",\"path\":[[0,0],[5,3],[10,0]],\"iterations\":4,\
 \"evaluations\":9,\"cost\":11.5,\"terms\":[[\"length\",11.5]],\"progress\":[[3,1.5,12.0],[6,2.0,12.5],[9,2.5,11.5]]}""#;
 
+/// Makes a script answer its first request, the one that may take a minute longer, as `GOOD` does.
+fn at_first_good(script: &str) -> String {
+    format!("if [ -z \"$warm\" ]; then warm=1; {GOOD}; continue; fi; {script}")
+}
+
 /// (label, script, further keys, status, what the error says)
 type Bad = (&'static str, &'static str, &'static str, RunStatus, &'static str);
 
@@ -114,6 +119,8 @@ const BAD: &[Bad] = {
     use RunStatus::{Crashed, Error, Solved, Timeout};
     &[
         ("aborts", "echo 'no more memory for me' >&2; kill -ABRT $$", "", Crashed, "SIGABRT"),
+        ("segfaults", "kill -SEGV $$", "", Crashed, "SIGSEGV"),
+        ("quits", "exit 75", "", Crashed, "exit status: 75"),
         ("explains", "echo 'division by zero' >&2; exit 3", "", Crashed, "its last words: division by zero"),
         ("hangs", "sleep 1000", "hard_limit_ms = 300", Timeout, "no answer within its hard limit, 0.3 s"),
         (
@@ -161,6 +168,20 @@ const BAD: &[Bad] = {
         ("triumph", r#"echo "{\"id\":$id,\"status\":\"won\"}""#, "", Error, "unknown variant `won`, expected one of"),
         ("mute", r#"echo "{\"id\":$id}""#, "", Error, "neither status nor error; expected"),
         ("endless", "yes | tr -d '\\n'", "", Error, "a line of more than 64 MiB; expected an answer"),
+        (
+            "eager",
+            r#"printf '%s\n%s\n' "{\"id\":$id,\"error\":\"a\"}" "{\"id\":$((id+1)),\"error\":\"b\"}""#,
+            "",
+            Error,
+            "a line before it was asked; expected one for each request",
+        ),
+        (
+            "boastful",
+            r#"echo "{\"id\":$id,\"error\":\"\",\"evaluations\":1,\"progress\":[[2,0,1]]}""#,
+            "",
+            Error,
+            "progress up to 2 evaluations of 1 in all; expected",
+        ),
         ("refuses", r#"echo "{\"id\":$id,\"error\":\"too hard\"}""#, "", Error, "too hard"),
         (
             "elsewhere",
@@ -177,7 +198,14 @@ fn every_way_to_fail_ends_that_run_alone() {
     let place = Place::new("bad");
     let mut planners = vec![("good", GOOD, "")];
     place.comparison("clean", &planners);
-    planners.extend(BAD.iter().map(|(label, script, keys, ..)| (*label, *script, *keys)));
+    let bad: Vec<String> = BAD
+        .iter()
+        .map(|(_, script, _, status, _)| match status {
+            RunStatus::Timeout => at_first_good(script),
+            _ => (*script).to_owned(),
+        })
+        .collect();
+    planners.extend(BAD.iter().zip(&bad).map(|((label, _, keys, ..), script)| (*label, script.as_str(), *keys)));
     place.comparison("hostile", &planners);
     place.write("hostile.toml", &{
         let text = fs::read_to_string(place.0.join("hostile.toml")).unwrap();
@@ -195,7 +223,8 @@ fn every_way_to_fail_ends_that_run_alone() {
                 assert_eq!((run.iterations, run.evaluations, run.cost), (4, 9, Some(11.5)));
                 assert_eq!(run.terms, [("length".to_owned(), 11.5)]);
                 let curve: Vec<_> = run.progress.iter().map(|p| (p.evaluations, p.time_us, p.cost)).collect();
-                assert_eq!(curve, [(3, 1.5, 12.0), (9, 2.5, 11.5)], "improvements alone");
+                let end = run.time_us;
+                assert_eq!(curve, [(3, end, 12.0), (9, end, 11.5)], "improvements alone, by the bench's clock");
                 assert!(run.time_us > 0.0 && run.overhead_us.is_none(), "the round trip is its time");
             }
         }
@@ -226,16 +255,20 @@ fn memory_is_limited_while_planning_and_after() {
     // A mebibyte more in each turn, so that nobody's machine suffers if the limit does not work.
     let megabyte = "m=0123456789abcdef; for i in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16; do m=$m$m; done";
     let eat = |turns: u32| format!("{megabyte}; x=; i=0; while [ $i -lt {turns} ]; do x=$x$m; i=$((i+1)); done");
+    // Five children of some 8 MiB, none of which is too large, copies of text included.
+    let child = format!("({}; sleep 1000) &", eat(6));
+    let family = format!("{} wait", child.repeat(5));
     let (greedy, hasty) = (format!("{}; sleep 1000", eat(60)), format!("{}; {GOOD}", eat(60)));
     let planners = [
         ("greedy", greedy.as_str(), "memory_mb = 30"),
         ("hasty", hasty.as_str(), "memory_mb = 30"),
+        ("family", &family, "memory_mb = 30"),
         ("modest", GOOD, "memory_mb = 30"),
     ];
     place.comparison("memory", &planners);
     place.ok(&["run", "memory.toml", "--out", "out", "--quiet"]);
     let runs = place.runs("out");
-    for run in runs["greedy"].iter().chain(&runs["hasty"]) {
+    for run in ["greedy", "hasty", "family"].iter().flat_map(|label| &runs[*label]) {
         assert_eq!(run.status, RunStatus::OutOfMemory, "{run:?}");
         assert!(run.error.as_deref().is_some_and(|e| e.ends_with("expected at most memory_mb = 30")), "{run:?}");
     }
@@ -255,6 +288,16 @@ fn a_process_that_fails_once_is_started_again() {
     assert_eq!(statuses, [RunStatus::Crashed, RunStatus::Solved, RunStatus::Solved]);
     let asked = fs::read_to_string(place.0.join("asked")).unwrap();
     assert_eq!(asked.lines().count(), 3, "the first request twice, so that the start is not timed; then once a run");
+}
+
+#[test]
+fn a_slow_start_is_allowed_for() {
+    let place = Place::new("slow");
+    let script = format!("[ -n \"$warm\" ] || sleep 1; warm=1; {GOOD}");
+    place.comparison("slow", &[("slow", &script, "hard_limit_ms = 500")]);
+    place.ok(&["run", "slow.toml", "--out", "out", "--quiet"]);
+    let runs = &place.runs("out")["slow"];
+    assert!(runs.iter().all(|run| run.valid && run.time_us < 1e6), "{runs:?}");
 }
 
 #[test]
@@ -284,7 +327,8 @@ fn isolation_changes_nothing_but_times() {
 #[cfg(target_os = "linux")]
 fn a_killed_bench_leaves_no_process() {
     let place = Place::new("killed");
-    place.comparison("killed", &[("hangs", "echo $$ > hang.pid; exec sleep 1000", "")]);
+    // Of the three processes only the last is looked for: neither bench nor tether has started it.
+    place.comparison("killed", &[("hangs", "sleep 1000 & echo $! > hang.pid; wait", "")]);
     let mut bench = place
         .command(&["run", "killed.toml", "--out", "out", "--quiet", "--isolate", "--planner", "hangs"])
         .stderr(Stdio::null())
@@ -298,6 +342,45 @@ fn a_killed_bench_leaves_no_process() {
     bench.kill().unwrap();
     bench.wait().unwrap();
     assert!(gone(&place, "hang.pid"));
+}
+
+/// Makes `touchline run many.toml` with at most `files` open files in the bench.
+fn run_with_files(place: &Place, files: u32, more: &str) -> Output {
+    let line = format!("ulimit -n {files}; exec \"$0\" run many.toml --out out --quiet {more}");
+    let mut shell = Command::new("sh");
+    shell.args(["-c", &line, env!("CARGO_BIN_EXE_touchline")]).current_dir(&place.0).output().unwrap()
+}
+
+#[test]
+fn processes_are_few_and_none_is_missed() {
+    let place = Place::new("many");
+    let labels: Vec<String> = (0..40).map(|n| format!("p{n}")).collect();
+    let planners: Vec<_> = labels.iter().map(|label| (label.as_str(), GOOD, "")).collect();
+    place.comparison("many", &planners);
+    // 32 processes have 96 pipes, and 40 would have 120.
+    let output = run_with_files(&place, 118, "");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let runs = place.runs("out");
+    assert_eq!(runs.len(), 43);
+    assert!(runs.iter().all(|(label, runs)| label == "straight-line" || runs.iter().all(|run| run.valid)));
+}
+
+#[test]
+fn a_bench_without_means_is_no_result() {
+    let place = Place::new("poor");
+    let labels: Vec<String> = (0..10).map(|n| format!("p{n}")).collect();
+    let planners: Vec<_> = labels.iter().map(|label| (label.as_str(), GOOD, "")).collect();
+    place.comparison("many", &planners);
+    let output = run_with_files(&place, 34, "");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("error: cannot start [\"sh\", \"p") && said.contains("Too many open files"), "{said}");
+    assert!(said.contains("runs are kept in out; allow more open files"), "{said}");
+    assert!(said.contains("touchline run --out out --resume"), "{said}");
+    let kept = place.runs("out");
+    assert!(kept.values().flatten().all(|run| run.error.is_none()), "{kept:?}");
+    place.ok(&["run", "many.toml", "--out", "out", "--quiet", "--resume"]);
+    assert!(labels.iter().all(|label| place.runs("out")[label].iter().all(|run| run.valid)));
 }
 
 #[test]

@@ -78,6 +78,7 @@ class Run:
             "iterations": self.iterations,
             "evaluations": self.evaluations,
             "collision_checks": collision_checks,
+            "time_us": self.seconds() * 1e6,
             "progress": self.progress,
         }
         if path:

@@ -32,6 +32,7 @@ def answer(request: dict) -> dict:
         "status": "solved",
         "path": path,
         "evaluations": evaluations,
+        "time_us": time_us,
         "progress": [[evaluations, time_us, cost]],
     }
 

@@ -287,7 +287,7 @@ pub fn main() -> ExitCode {
         Some(Command::Merge(args)) => merge::merge(&args),
         Some(Command::Compare(args)) => compare::compare(&args),
         Some(Command::Worker) => worker::worker(),
-        Some(Command::Tethered { parent, command }) => Err(worker::tethered(parent, &command)),
+        Some(Command::Tethered { parent, command }) => Ok(worker::tethered(parent, &command)),
     };
     outcome.unwrap_or_else(|error| {
         eprintln!("error: {error}");

@@ -39,7 +39,7 @@ pub(super) fn plan(args: &PlanArgs) -> Result<ExitCode, Error> {
     let judge = Judge::new(&arena.scene);
     let result = arena.result();
     // It warms up first, as in the bench.
-    let record = Seat::new(&entry, false).run(0, &arena, args.seed);
+    let record = Seat::new(&entry, false).run(0, &arena, args.seed)?;
     let record = runner::judged(record, &judge, result.optimum.length);
     if let Some(path) = &args.svg {
         std::fs::write(path, picture(&entry, &result, &record)).map_err(Error::io("write", path))?;

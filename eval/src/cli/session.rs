@@ -72,7 +72,7 @@ fn make(
         store.add(&record)?;
         *made += 1;
         progress.step();
-        Ok::<(), Error>(())
+        Ok(())
     })?;
     progress.finish();
     let mut manifest = head.manifest.clone();

@@ -12,8 +12,9 @@ pub(super) fn worker() -> Result<ExitCode, Error> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Returns only on failure.
-pub(super) fn tethered(parent: u32, command: &[OsString]) -> Error {
-    let error = tether::run(parent, command);
-    Error::Usage(format!("cannot start {command:?}: {error}"))
+pub(super) fn tethered(parent: u32, command: &[OsString]) -> ExitCode {
+    tether::run(parent, command).unwrap_or_else(|error| {
+        eprintln!("{}{command:?}: {error}", tether::SORRY);
+        ExitCode::from(if tether::is_shortage(&error) { tether::SHORT } else { 2 })
+    })
 }

@@ -14,7 +14,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::tether;
+use super::{protocol, tether};
 use crate::campaign::micros;
 use crate::results::RunStatus;
 
@@ -32,7 +32,9 @@ const WORDS: usize = 2048;
 pub struct Bounds {
     /// Time to answer.
     pub time: Duration,
-    /// Most resident memory, MiB; Linux only.
+    /// Time on top of that, to start.
+    pub start: Duration,
+    /// Most resident memory of all its processes, MiB; Linux only.
     pub memory_mb: Option<u64>,
 }
 
@@ -47,6 +49,21 @@ pub struct Failure {
     pub time_us: f64,
 }
 
+/// Why there is no answer, and whose fault that is.
+#[derive(Debug)]
+pub enum Trouble {
+    /// The planner's: the run's result.
+    Planner(Failure),
+    /// The bench's, which has no means to start a process.
+    Bench(io::Error),
+}
+
+impl From<Failure> for Trouble {
+    fn from(failure: Failure) -> Self {
+        Self::Planner(failure)
+    }
+}
+
 /// A running process.
 pub struct Process {
     child: Child,
@@ -54,6 +71,8 @@ pub struct Process {
     requests: Option<Sender<Vec<u8>>>,
     lines: Receiver<Line>,
     words: Arc<Mutex<VecDeque<u8>>>,
+    /// Whether it has said more than its last answer.
+    ahead: bool,
     /// Disconnects when its standard error closes.
     mute: Receiver<()>,
     /// Set when it is dead and reaped: its number may be another's by then.
@@ -61,12 +80,16 @@ pub struct Process {
 }
 
 enum Line {
-    Whole(Vec<u8>),
+    Whole {
+        line: Vec<u8>,
+        /// Whether something came with it.
+        more: bool,
+    },
     TooLong,
 }
 
 impl Process {
-    /// Starts `program` in `folder`. It must end on the thread that starts it.
+    /// Starts `program` in `folder`.
     pub fn start(program: impl AsRef<OsStr>, arguments: &[impl AsRef<OsStr>], folder: &Path) -> io::Result<Self> {
         let mut command = tether::command(program, arguments)?;
         command.current_dir(folder).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -78,33 +101,42 @@ impl Process {
             unreachable!("all three are piped")
         };
         let (requests, waiting) = mpsc::channel::<Vec<u8>>();
-        // A closed pipe shows on the other side.
-        thread::spawn(move || waiting.iter().try_for_each(|request| stdin.write_all(&request)));
         // Whoever talks without being asked is stopped by the full pipe.
         let (sender, lines) = mpsc::sync_channel(1);
-        thread::spawn(move || read_lines(stdout, &sender));
         let words = Arc::new(Mutex::new(VecDeque::with_capacity(WORDS)));
         let (speaking, mute) = mpsc::channel();
         let kept = Arc::clone(&words);
-        thread::spawn(move || {
+        // It ends with this value, if a thread is not to be had.
+        let process = Self { child, requests: Some(requests), lines, ahead: false, words, mute, ended: None };
+        // A closed pipe shows on the other side.
+        background(move || drop(waiting.iter().try_for_each(|request| stdin.write_all(&request))))?;
+        background(move || read_lines(stdout, &sender))?;
+        background(move || {
             keep_last(&mut stderr, &kept);
             drop(speaking);
-        });
-        Ok(Self { child, requests: Some(requests), lines, words, mute, ended: None })
+        })?;
+        Ok(process)
     }
 
     /// Sends the line `request` and waits for one line, which is returned with the time that both took, µs.
-    pub fn ask(&mut self, request: Vec<u8>, bounds: Bounds) -> Result<(Vec<u8>, f64), Failure> {
+    pub fn ask(&mut self, request: Vec<u8>, bounds: Bounds) -> Result<(Vec<u8>, f64), Trouble> {
         let began = Instant::now();
+        if self.ahead || self.lines.try_recv().is_ok() {
+            let error = "a line before it was asked; expected one for each request".to_owned();
+            return Err(self.end(RunStatus::Error, began, error).into());
+        }
         if let Some(requests) = &self.requests {
             // Fails when the process has closed its standard input: then it will not answer either.
             let _ = requests.send(request);
         }
         loop {
-            let left = bounds.time.saturating_sub(began.elapsed());
+            let left = (bounds.time + bounds.start).saturating_sub(began.elapsed());
             if left.is_zero() {
-                let limit = bounds.time.as_secs_f64();
-                return Err(self.end(RunStatus::Timeout, began, format!("no answer within its hard limit, {limit} s")));
+                let mut error = format!("no answer within its hard limit, {} s", bounds.time.as_secs_f64());
+                if !bounds.start.is_zero() {
+                    error.push_str(&format!(", and {} s to start", bounds.start.as_secs_f64()));
+                }
+                return Err(self.end(RunStatus::Timeout, began, error).into());
             }
             let answer = match self.lines.recv_timeout(left.min(TICK)) {
                 // What it wrote before it died may still be on its way.
@@ -113,16 +145,19 @@ impl Process {
             };
             let time_us = micros(began);
             if let Some(most) = bounds.memory_mb
-                && let Some(used) = self.peak_mib().filter(|used| *used > most as f64)
+                && let Some(used) = self.memory_mib().filter(|used| *used > most as f64)
             {
                 let error = format!("{used:.1} MiB of memory; expected at most memory_mb = {most}");
-                return Err(self.end(RunStatus::OutOfMemory, began, error));
+                return Err(self.end(RunStatus::OutOfMemory, began, error).into());
             }
             match answer {
-                Ok(Line::Whole(line)) => return Ok((line, time_us)),
+                Ok(Line::Whole { line, more }) => {
+                    self.ahead = more;
+                    return Ok((line, time_us));
+                }
                 Ok(Line::TooLong) => {
                     let error = format!("a line of more than {} MiB; expected an answer", LONGEST >> 20);
-                    return Err(self.end(RunStatus::Error, began, error));
+                    return Err(self.end(RunStatus::Error, began, error).into());
                 }
                 Err(RecvTimeoutError::Timeout) if !self.is_dead() => {}
                 Err(_) => return Err(self.crashed(began)),
@@ -131,19 +166,23 @@ impl Process {
     }
 
     /// Its death by its own doing, in words.
-    fn crashed(&mut self, began: Instant) -> Failure {
+    fn crashed(&mut self, began: Instant) -> Trouble {
         let died = self.dies_within(GRACE);
         let mut failure = self.end(RunStatus::Crashed, began, String::new());
+        let words = self.last_words();
+        if died && tether::was_short(self.ended, &words) {
+            return Trouble::Bench(io::Error::other(words));
+        }
         failure.error = match self.ended {
             Some(status) if died => format!("its process ended before it answered: {status}"),
             _ => "it closed its standard output before it answered".to_owned(),
         };
-        let words = self.last_words();
         if !words.is_empty() {
             failure.error.push_str("; its last words: ");
-            failure.error.push_str(&words);
+            let lines: Vec<_> = words.lines().map(protocol::plain).collect();
+            failure.error.push_str(&lines.join("\n"));
         }
-        failure
+        failure.into()
     }
 
     fn end(&mut self, status: RunStatus, began: Instant, error: String) -> Failure {
@@ -171,12 +210,28 @@ impl Process {
         true
     }
 
-    /// Most resident memory so far, MiB, while it lives. `VmHWM` of `proc_pid_status(5)`.
-    fn peak_mib(&self) -> Option<f64> {
-        let status = std::fs::read_to_string(format!("/proc/{}/status", self.child.id())).ok()?;
-        let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
-        let kib: f64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
-        Some(kib / 1024.0)
+    /// Resident memory of its group now, or the most that one process of it has held if that is more, MiB. `VmRSS` and
+    /// `VmHWM` of `proc_pid_status(5)`; memory that processes share counts in each.
+    #[cfg(target_os = "linux")]
+    fn memory_mib(&self) -> Option<f64> {
+        let group = self.child.id();
+        let numbers = std::fs::read_dir("/proc").ok()?.flatten();
+        let numbers = numbers.filter_map(|entry| entry.file_name().to_str()?.parse::<u32>().ok());
+        // The group's leader is the tether.
+        let members = numbers.filter(|pid| *pid != group && group_of(*pid) == Some(group));
+        let (mut now, mut peak) = (0.0, 0.0_f64);
+        for pid in members {
+            // Gone meanwhile, or dead and without memory.
+            let Ok(status) = std::fs::read_to_string(format!("/proc/{pid}/status")) else { continue };
+            now += mib(&status, "VmRSS:").unwrap_or(0.0);
+            peak = peak.max(mib(&status, "VmHWM:").unwrap_or(0.0));
+        }
+        Some(peak.max(now))
+    }
+
+    #[cfg(not(target_os = "linux"))]
+    fn memory_mib(&self) -> Option<f64> {
+        None
     }
 
     /// Whether it has ended by itself. Does not reap it, so that its group keeps its number.
@@ -219,13 +274,33 @@ impl Drop for Process {
     }
 }
 
+/// The process group of process `pid`: the third field after its name, which may hold anything. `proc_pid_stat(5)`.
+#[cfg(target_os = "linux")]
+fn group_of(pid: u32) -> Option<u32> {
+    let stat = std::fs::read_to_string(format!("/proc/{pid}/stat")).ok()?;
+    stat.rsplit_once(')')?.1.split_ascii_whitespace().nth(2)?.parse().ok()
+}
+
+/// The value of `key` in a status file of `/proc`, MiB.
+#[cfg(target_os = "linux")]
+fn mib(status: &str, key: &str) -> Option<f64> {
+    let line = status.lines().find_map(|line| line.strip_prefix(key))?;
+    let kib: f64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(kib / 1024.0)
+}
+
+/// Unlike [`thread::spawn`], does not panic where there is no thread to be had.
+fn background(work: impl FnOnce() + Send + 'static) -> io::Result<()> {
+    thread::Builder::new().spawn(work).map(drop)
+}
+
 fn read_lines(stdout: impl Read, sender: &SyncSender<Line>) {
     let mut stdout = BufReader::new(stdout);
     loop {
         let mut line = Vec::new();
         // An end without a line's end is no line.
         let line = match stdout.by_ref().take(LONGEST).read_until(b'\n', &mut line) {
-            Ok(_) if line.ends_with(b"\n") => Line::Whole(line),
+            Ok(_) if line.ends_with(b"\n") => Line::Whole { line, more: !stdout.buffer().is_empty() },
             Ok(length) if length as u64 == LONGEST => Line::TooLong,
             _ => return,
         };

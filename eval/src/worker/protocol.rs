@@ -23,6 +23,30 @@ pub const VERSION: u32 = 1;
 /// What an answer may look like, for messages.
 pub const EXPECTED: &str = r#"{"id":N,"status":"solved","path":[[x,y],…]} or {"id":N,"error":"…"} on one line"#;
 
+/// The longest path that is taken from an external planner, points.
+const MOST_POINTS: usize = 100_000;
+/// The longest text that is taken from it, bytes.
+const MOST_TEXT: usize = 2048;
+
+/// `text` with control characters escaped, cut where it is too long.
+pub fn plain(text: &str) -> String {
+    let mut plain = String::new();
+    for c in text.chars() {
+        let length = plain.len();
+        if c.is_control() {
+            plain.extend(c.escape_default());
+        } else {
+            plain.push(c);
+        }
+        if plain.len() > MOST_TEXT {
+            plain.truncate(length);
+            plain.push('…');
+            break;
+        }
+    }
+    plain
+}
+
 /// Asks for one run.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -158,6 +182,39 @@ impl Answer {
         Ok(answer)
     }
 
+    /// The answer of an external planner, which the bench saw `round_trip` µs after the request. Nothing is too large,
+    /// text is plain, counters agree, and no improvement is earlier than the bench can believe: it came as long before
+    /// the end of the round trip as it did before the end of the planner's own total time, or, without a possible one,
+    /// at the end of the round trip. Else what is wrong with it.
+    pub fn vetted(mut self, round_trip: f64) -> Result<Self, String> {
+        let points = self.path.as_ref().map_or(0, Vec::len);
+        if points > MOST_POINTS {
+            return Err(format!("a path of {points} points, more than {MOST_POINTS}"));
+        }
+        for (key, time) in [("time_us", self.time_us), ("cpu_us", self.cpu_us)] {
+            if time < 0.0 {
+                return Err(format!("{key} = {time}, less than 0"));
+            }
+        }
+        if let Some((last, ..)) = self.progress.last() {
+            if self.evaluations == 0 {
+                self.evaluations = *last;
+            }
+            if *last > self.evaluations {
+                return Err(format!("progress up to {last} evaluations of {} in all", self.evaluations));
+            }
+        }
+        let own = Some(self.time_us).filter(|own| *own > 0.0 && *own <= round_trip);
+        for (_, time, _) in &mut self.progress {
+            *time = own.map_or(round_trip, |own| round_trip - (own - *time).max(0.0));
+        }
+        self.error = self.error.as_deref().map(plain);
+        for (name, _) in &mut self.terms {
+            *name = plain(name);
+        }
+        Ok(self)
+    }
+
     /// Puts what it tells into `record`. An error outweighs a status.
     pub fn tell(self, record: &mut RunRecord) {
         record.status = match (&self.error, self.status) {
@@ -217,6 +274,45 @@ mod tests {
         let mut back = RunRecord::empty("scene", "planner", 0, 7);
         Answer::read(line.as_bytes(), 4).unwrap().tell(&mut back);
         assert_eq!(back, run);
+    }
+
+    fn vetted(rest: &str) -> Result<Answer, String> {
+        let line = format!(r#"{{"id":1,"status":"solved","path":[],{rest}}}"#);
+        Answer::read(line.as_bytes(), 1).unwrap().vetted(1000.0)
+    }
+
+    #[test]
+    fn no_improvement_is_earlier_than_the_bench_believes() {
+        let times = |rest: &str| {
+            let answer = vetted(&format!(r#"{rest}"progress":[[1,0,9],[4,150,8]]"#)).unwrap();
+            (answer.evaluations, answer.progress.iter().map(|p| p.1).collect::<Vec<_>>())
+        };
+        // By hand: 1000 − (200 − 0) and 1000 − (200 − 150).
+        assert_eq!(times(r#""evaluations":4,"time_us":200,"#), (4, vec![800.0, 950.0]));
+        assert_eq!(times(r#""evaluations":9,"#), (9, vec![1000.0; 2]), "no time of its own");
+        assert_eq!(times(r#""time_us":1e9,"#), (4, vec![1000.0; 2]), "longer than it can have taken");
+        assert_eq!(times(r#""time_us":100,"#), (4, vec![900.0, 1000.0]), "an improvement after its own end");
+    }
+
+    #[test]
+    fn an_external_answer_keeps_within_bounds() {
+        let point = "[0,0],".repeat(MOST_POINTS);
+        for (rest, expected) in [
+            (r#""evaluations":3,"progress":[[4,1,9]]"#, "progress up to 4 evaluations of 3 in all"),
+            (r#""time_us":-1"#, "time_us = -1, less than 0"),
+            (r#""cpu_us":-0.5"#, "cpu_us = -0.5, less than 0"),
+        ] {
+            assert_eq!(vetted(rest).unwrap_err(), expected);
+        }
+        let path = format!(r#"{{"id":1,"status":"solved","path":[{point}[1,1]]}}"#);
+        let long = Answer::read(path.as_bytes(), 1).unwrap().vetted(1.0).unwrap_err();
+        assert_eq!(long, "a path of 100001 points, more than 100000");
+        let answer = vetted(&format!(r#""error":"\u001b[2J{}","terms":[["a\u0007",1]]"#, "é".repeat(5000))).unwrap();
+        assert_eq!(answer.terms[0].0, "a\\u{7}");
+        let error = answer.error.unwrap();
+        assert!(error.starts_with("\\u{1b}[2Jé") && error.ends_with("é…"), "{error}");
+        // The last character that does not fit is left out, and the ellipsis has three bytes.
+        assert!((MOST_TEXT..MOST_TEXT + 3).contains(&error.len()), "{}", error.len());
     }
 
     #[test]

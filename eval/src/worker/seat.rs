@@ -2,18 +2,24 @@
 
 use std::ffi::OsString;
 use std::path::Path;
+use std::time::Duration;
 
 use planner_api::{Plan, Planner};
 use serde_json::value::RawValue;
 
-use super::process::{Bounds, Failure, Process};
+use super::process::{Bounds, Failure, Process, Trouble};
 use super::protocol::{Answer, EXPECTED, Request, VERSION};
 use super::tether;
 use crate::campaign::{Arena, micros};
 use crate::config::{Maker, PlannerEntry};
+use crate::error::Error;
 use crate::recorder::Recorder;
 use crate::results::{RunRecord, RunStatus};
 use crate::runner;
+
+/// What the first request to a new process of an external planner may take on top of its hard limit: interpreters and
+/// their libraries load slowly on a cold or busy machine.
+const START: Duration = Duration::from_secs(60);
 
 /// A planner's place: in this process, or in one of its own that is started when it is needed and again after it died.
 ///
@@ -61,13 +67,29 @@ impl<'c> Seat<'c> {
         Self { entry, place, warm: None }
     }
 
+    /// Whether its runs are made in a process of its own.
+    pub fn is_apart(&self) -> bool {
+        matches!(self.place, Place::Apart(_))
+    }
+
+    /// Ends its process, if it has one. The next run starts another and warms it up.
+    pub fn rest(&mut self) {
+        if let Place::Apart(apart) = &mut self.place {
+            apart.process = None;
+            self.warm = None;
+        }
+    }
+
     /// Makes one run in `arena`, which is scene number `scene`; not judged yet.
-    pub fn run(&mut self, scene: usize, arena: &Arena, seed: u64) -> RunRecord {
+    ///
+    /// # Errors
+    /// When a process cannot be started for want of the bench's own means, which is no fault of the planner.
+    pub fn run(&mut self, scene: usize, arena: &Arena, seed: u64) -> Result<RunRecord, Error> {
         if !self.is_warm(scene) {
             self.warm = Some(scene);
-            let record = self.once(scene, arena, seed);
+            let record = self.once(scene, arena, seed)?;
             if self.warm.is_none() {
-                return record;
+                return Ok(record);
             }
         }
         self.once(scene, arena, seed)
@@ -80,7 +102,7 @@ impl<'c> Seat<'c> {
         }
     }
 
-    fn once(&mut self, scene: usize, arena: &Arena, seed: u64) -> RunRecord {
+    fn once(&mut self, scene: usize, arena: &Arena, seed: u64) -> Result<RunRecord, Error> {
         let entry = self.entry;
         match &mut self.place {
             Place::Here(here) => {
@@ -91,17 +113,20 @@ impl<'c> Seat<'c> {
                     // Its state is anyone's guess.
                     *planner = fresh;
                 }
-                record
+                Ok(record)
             }
             Place::Apart(apart) => {
                 let mut record = RunRecord::empty(&arena.scene.name, &entry.label, 0, seed);
-                if let Err(failure) = apart.ask(entry, scene, arena, &mut record) {
-                    (record.status, record.error) = (failure.status, Some(failure.error));
-                    record.time_us = failure.time_us;
-                    apart.process = None;
-                    self.warm = None;
+                match apart.ask(entry, scene, arena, &mut record) {
+                    Ok(()) => return Ok(record),
+                    Err(Trouble::Planner(failure)) => {
+                        (record.status, record.error) = (failure.status, Some(failure.error));
+                        record.time_us = failure.time_us;
+                    }
+                    Err(Trouble::Bench(source)) => return Err(Error::Start { what: command(entry), source }),
                 }
-                record
+                self.rest();
+                Ok(record)
             }
         }
     }
@@ -115,15 +140,17 @@ impl Apart {
         scene: usize,
         arena: &Arena,
         record: &mut RunRecord,
-    ) -> Result<(), Failure> {
-        let bounds = Bounds { time: entry.hard_limit(), memory_mb: entry.limits.memory_mb };
+    ) -> Result<(), Trouble> {
+        let external = matches!(entry.maker, Maker::External(_));
+        let start = if external && self.process.is_none() { START } else { Duration::ZERO };
+        let bounds = Bounds { time: entry.hard_limit(), start, memory_mb: entry.limits.memory_mb };
         if bounds.memory_mb.is_some() && !cfg!(target_os = "linux") {
             let error = "memory_mb: only Linux tells how much memory a process holds".to_owned();
-            return Err(Failure { status: RunStatus::Error, error, time_us: 0.0 });
+            return Err(Failure { status: RunStatus::Error, error, time_us: 0.0 }.into());
         }
         let process = match &mut self.process {
             Some(process) => process,
-            None => self.process.insert(start(entry)?),
+            None => self.process.insert(begin(entry)?),
         };
         let began = std::time::Instant::now();
         if self.scene.as_ref().is_none_or(|(known, _)| *known != scene) {
@@ -131,7 +158,6 @@ impl Apart {
         }
         let Some((_, text)) = &self.scene else { unreachable!("set above") };
         self.last_id += 1;
-        let external = matches!(entry.maker, Maker::External(_));
         let request = Request {
             protocol: VERSION,
             id: self.last_id,
@@ -144,7 +170,9 @@ impl Apart {
         let mut line = serde_json::to_vec(&request).expect("finite numbers and text");
         line.push(b'\n');
         let (line, round_trip) = process.ask(line, bounds)?;
-        let answer = Answer::read(&line, self.last_id).map_err(|fault| Failure {
+        let answer = Answer::read(&line, self.last_id);
+        let answer = if external { answer.and_then(|answer| answer.vetted(round_trip)) } else { answer };
+        let answer = answer.map_err(|fault| Failure {
             status: RunStatus::Error,
             error: format!("{fault}; expected {EXPECTED}; it said {}", beginning(&line)),
             time_us: round_trip,
@@ -159,7 +187,7 @@ impl Apart {
     }
 }
 
-fn start(entry: &PlannerEntry) -> Result<Process, Failure> {
+fn begin(entry: &PlannerEntry) -> Result<Process, Trouble> {
     let process = match &entry.maker {
         Maker::External(external) => {
             let (program, arguments) = external.command.split_first().expect("checked when it was read");
@@ -169,13 +197,21 @@ fn start(entry: &PlannerEntry) -> Result<Process, Failure> {
             tether::own_program().and_then(|own| Process::start(own, &[OsString::from("worker")], Path::new(".")))
         }
     };
-    process.map_err(|e| {
-        let what = match &entry.maker {
-            Maker::External(external) => format!("{:?} in {}", external.command, external.folder.display()),
-            Maker::Catalogue(_) => "touchline worker".to_owned(),
-        };
-        Failure { status: RunStatus::Crashed, error: format!("cannot start {what}: {e}"), time_us: 0.0 }
+    process.map_err(|e| match tether::is_shortage(&e) {
+        true => Trouble::Bench(e),
+        false => {
+            let error = format!("cannot start {}: {e}", command(entry));
+            Failure { status: RunStatus::Crashed, error, time_us: 0.0 }.into()
+        }
     })
+}
+
+/// How its process is started, for messages.
+fn command(entry: &PlannerEntry) -> String {
+    match &entry.maker {
+        Maker::External(external) => format!("{:?} in {}", external.command, external.folder.display()),
+        Maker::Catalogue(_) => "touchline worker".to_owned(),
+    }
 }
 
 fn raw(value: &impl serde::Serialize) -> Box<RawValue> {
