@@ -377,6 +377,26 @@ fn external_planners_and_limits() {
 }
 
 #[test]
+fn the_folder_of_an_external_planner_is_said_but_no_part_of_identity() {
+    let read = |keys: &str| {
+        let planner = format!("[planner.mine]\nkind = \"external\"\ncommand = [\"./p\"]\n{keys}");
+        Comparison::from_toml("x.toml", &format!("name = \"x\"\nscenes = [\"a.toml\"]\n{planner}"), &Memory)
+    };
+    let folder = |c: &Comparison| match &c.planners[0].maker {
+        Maker::External(external) => external.folder.clone(),
+        Maker::Catalogue(_) => unreachable!("it is external"),
+    };
+    let [usual, own, far] = ["", "folder = \"own\"", "folder = \"/far\""].map(|keys| read(keys).unwrap());
+    let here = std::env::current_dir().unwrap();
+    assert_eq!([folder(&usual), folder(&own), folder(&far)], [here.clone(), here.join("own"), "/far".into()]);
+    assert!(own.to_toml().contains(&format!("folder = \"{}\"", here.join("own").display())), "{}", own.to_toml());
+    assert!(own.planners[0].settings.is_empty());
+    assert_eq!(usual.portable_toml(), far.portable_toml());
+    assert_ne!(usual.to_toml(), far.to_toml());
+    assert!(read("folder = 1").err().unwrap().to_string().contains("x.toml:6:10: found integer; expected text"));
+}
+
+#[test]
 fn tuning_scenes_stay_apart() {
     let read =
         |scenes: &str| Comparison::from_toml("x.toml", &format!("name = \"x\"\n{scenes}\n[planner.pso]"), &Memory);

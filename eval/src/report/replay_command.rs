@@ -5,7 +5,7 @@ use toml::{Table, Value};
 use crate::config;
 use crate::results::PlannerInfo;
 
-/// The command; runs of external planners and of kinds that this program does not know are replayed all together.
+/// The command; runs of kinds that this program does not know are replayed all together.
 pub fn command(planner: &PlannerInfo, scene_file: &str, seed: u64) -> String {
     let mut words = vec!["touchline".to_owned()];
     match settings(planner) {
@@ -27,9 +27,12 @@ pub fn command(planner: &PlannerInfo, scene_file: &str, seed: u64) -> String {
     words.join(" ")
 }
 
-/// The settings that make this planner from its kind's defaults; `None` where the catalogue does not make it.
+/// The settings that make this planner from its kind's defaults, the program of an external one included; `None`
+/// where this program does not make it.
 fn settings(planner: &PlannerInfo) -> Option<Table> {
-    let wanted: Table = toml::from_str(&planner.settings).ok()?;
+    let mut wanted: Table = toml::from_str(&planner.settings).ok()?;
+    // Said key by key.
+    wanted.remove("budget");
     let made = |settings: &Table| config::single("", &planner.kind, &settings.to_string()).ok().map(|e| e.settings);
     let whole = made(&wanted)?;
     let defaults = made(&Table::new()).unwrap_or_default();
@@ -110,8 +113,15 @@ mod tests {
 
     #[test]
     fn external_planners_run_again() {
-        let planner =
-            PlannerInfo { budget: BudgetSpec::default(), ..PlannerInfo::plain("my own", "external", "gain = 1\n") };
-        assert_eq!(command(&planner, "scenes/a.toml", 7), "touchline run comparison.toml --planner 'my own'");
+        let own = info(
+            "external",
+            "command = [\"sh\", \"my own.sh\"]\nfolder = \"/a b\"\ngain = 1\nbudget = { time_ms = 5 }",
+        );
+        let said = "--set 'command=[\"sh\", \"my own.sh\"]' --set 'folder=\"/a b\"' --set gain=1 --set budget.time_ms=5.0";
+        let expected = format!("touchline plan scenes/a.toml --planner external {said} --seed 7");
+        assert_eq!(command(&own, "scenes/a.toml", 7), expected);
+        let unknown =
+            PlannerInfo { budget: BudgetSpec::default(), ..PlannerInfo::plain("my own", "lost", "gain = 1\n") };
+        assert_eq!(command(&unknown, "scenes/a.toml", 7), "touchline run comparison.toml --planner 'my own'");
     }
 }

@@ -36,8 +36,7 @@ CREATE TABLE campaign (
     seed INTEGER NOT NULL,
     repeats INTEGER NOT NULL,
     comparison TEXT NOT NULL,          -- resolved, TOML
-    manifest TEXT NOT NULL,            -- JSON; finished = '' while the campaign lasts
-    folder TEXT                        -- where the commands of external planners run, if there are any
+    manifest TEXT NOT NULL             -- JSON; finished = '' while the campaign lasts
 );
 CREATE TABLE planner (
     position INTEGER PRIMARY KEY,
@@ -98,8 +97,6 @@ pub struct Stored {
     pub scene_files: Vec<String>,
     /// How long each scene took to compile, µs, in that order too.
     pub compile_us: Vec<f64>,
-    /// Where the commands of external planners run, on the machine where the campaign began; no part of its identity.
-    pub folder: Option<String>,
 }
 
 /// How many runs of one planner in one scene ended in one way.
