@@ -18,6 +18,9 @@ use super::{from_table, table_of};
 /// The key that names an external planner's folder; no part of a campaign's identity.
 pub const FOLDER: &str = "folder";
 
+/// The key under which a resolved comparison says of which planner another is a variant, and by what.
+const VARIANT: &str = "variant";
+
 /// Makes instances of one planner, one for each thread.
 pub type Factory = Box<dyn Fn() -> Box<dyn Planner> + Send + Sync>;
 
@@ -168,8 +171,9 @@ impl PlannerEntry {
         let mut table = toml::Table::new();
         table.insert("kind".into(), self.kind.clone().into());
         if self.group != self.label {
-            table.insert("group".into(), self.group.clone().into());
-            table.insert("varied".into(), self.varied.clone().into());
+            let written = [("of", &self.group), ("by", &self.varied)];
+            let variant = written.map(|(key, text)| (key.to_owned(), text.clone().into()));
+            table.insert(VARIANT.into(), toml::Table::from_iter(variant).into());
         }
         table.extend(self.program());
         if let Some(ms) = self.limits.hard_limit_ms {
@@ -319,8 +323,10 @@ fn entry(
         },
     };
     let limits = limits(source, keys)?;
-    let group = text(source, keys.remove("group"))?.unwrap_or_else(|| label.to_owned());
-    let varied = text(source, keys.remove("varied"))?.unwrap_or_default();
+    let (group, varied) = match keys.remove(VARIANT) {
+        Some(value) => variant(source, value)?,
+        None => (label.to_owned(), String::new()),
+    };
     let label = label.to_owned();
     let command = keys.remove("command");
     if kind == "external" {
@@ -356,6 +362,18 @@ fn text(source: &Source<'_>, value: Option<Spanned<DeValue<'_>>>) -> Result<Opti
     match value.get_ref() {
         DeValue::String(text) => Ok(Some(text.to_string())),
         other => Err(source.error_at(value.span(), format!("found {}; expected text", other.type_str()))),
+    }
+}
+
+/// What a resolved comparison says of a variant: its group, and what tells it from the others.
+fn variant(source: &Source<'_>, value: Spanned<DeValue<'_>>) -> Result<(String, String), FileError> {
+    const EXPECTED: &str = "variant = { of = \"pso\", by = \"inertia=0.5\" }, as resolved comparisons have it";
+    let span = value.span();
+    let mut table = table_of(source, value, EXPECTED)?.into_inner();
+    let (of, by) = (text(source, table.remove("of"))?, text(source, table.remove("by"))?);
+    match (of, by) {
+        (Some(of), Some(by)) if table.is_empty() => Ok((of, by)),
+        _ => Err(source.error_at(span, format!("expected {EXPECTED}"))),
     }
 }
 
