@@ -35,7 +35,9 @@ impl Estimate {
         for (scene, used) in used.iter_mut().enumerate() {
             let units = work.shard.size((scene + 1) * repeats) - work.shard.size(scene * repeats);
             used.fill(units);
-            work.done.range((scene, 0, 0)..(scene + 1, 0, 0)).for_each(|(_, planner, _)| used[*planner] = used[*planner].saturating_sub(1));
+            work.done
+                .range((scene, 0, 0)..(scene + 1, 0, 0))
+                .for_each(|(_, planner, _)| used[*planner] = used[*planner].saturating_sub(1));
             let times = used.iter().zip(&limits).map(|(n, limit)| (*n, limit.unwrap_or(0.0)));
             runs += used.iter().sum::<usize>();
             total += times.clone().map(|(n, limit)| n as f64 * limit).sum::<f64>();
