@@ -1,13 +1,12 @@
 //! A comparison made ready to run: worlds compiled, optima known, identity fixed.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use env_model::{Scene, SceneError, World};
 use planner_api::{PlanError, Problem};
 
-use crate::config::{BudgetSpec, Comparison, Maker, SceneEntry};
+use crate::config::{BudgetSpec, Comparison, SceneEntry};
 use crate::results::{Optimum, PlannerInfo, Results, SceneResult, SceneSet};
 use crate::seeds::fnv1a_128;
 use crate::store::Stored;
@@ -58,10 +57,6 @@ pub fn micros(began: Instant) -> f64 {
     began.elapsed().as_nanos() as f64 / 1000.0
 }
 
-fn absolute(folder: &Path) -> PathBuf {
-    std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned())
-}
-
 /// A comparison ready to run.
 pub struct Campaign {
     /// What is compared.
@@ -85,7 +80,7 @@ impl Campaign {
 
     /// Identity: 128-bit FNV-1a hash of resolved comparison, scenes and program version, in hexadecimal.
     pub fn identity(&self) -> String {
-        let mut text = format!("touchline {}\0{}", env!("CARGO_PKG_VERSION"), self.comparison.to_toml());
+        let mut text = format!("touchline {}\0{}", env!("CARGO_PKG_VERSION"), self.comparison.portable_toml());
         for scene in &self.comparison.scenes {
             text.push('\0');
             text.push_str(&scene.scene.to_toml());
@@ -109,16 +104,11 @@ impl Campaign {
 
     /// What a store keeps of it before the first run; `results` are [`Campaign::empty_results`].
     pub fn stored(&self, results: &Results) -> Stored {
-        let folder = self.comparison.planners.iter().find_map(|planner| match &planner.maker {
-            Maker::External(external) => Some(&external.folder),
-            Maker::Catalogue(_) => None,
-        });
         Stored {
             results: Results { runs: Vec::new(), snapshots: Vec::new(), ..results.clone() },
             comparison: self.comparison.to_toml(),
             scene_files: self.comparison.scene_files(),
             compile_us: self.arenas.iter().map(|arena| arena.compile_us).collect(),
-            folder: folder.map(|folder| absolute(folder).display().to_string()),
         }
     }
 

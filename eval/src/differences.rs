@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use env_model::Scene;
 
 use crate::campaign::Campaign;
+use crate::config::FOLDER;
 use crate::store::Stored;
 
 /// All that an identity is made of.
@@ -18,7 +19,7 @@ impl Signature {
     /// Of a campaign that may be run.
     pub fn of(campaign: &Campaign) -> Self {
         let scenes = campaign.comparison.scenes.iter().map(|entry| &entry.scene);
-        Self::new(env!("CARGO_PKG_VERSION"), &campaign.comparison.to_toml(), scenes)
+        Self::new(env!("CARGO_PKG_VERSION"), &campaign.comparison.portable_toml(), scenes)
     }
 
     /// Of a campaign that is kept.
@@ -28,9 +29,15 @@ impl Signature {
     }
 
     fn new<'s>(version: &str, comparison: &str, scenes: impl Iterator<Item = &'s Scene>) -> Self {
+        let mut comparison: toml::Table = comparison.parse().unwrap_or_default();
+        let planners = comparison.get_mut("planner").and_then(toml::Value::as_table_mut);
+        for planner in planners.into_iter().flatten().filter_map(|(_, planner)| planner.as_table_mut()) {
+            // No part of an identity; planners of the catalogue have no such key.
+            planner.remove(FOLDER);
+        }
         Self {
             version: version.to_owned(),
-            comparison: comparison.parse().unwrap_or_default(),
+            comparison,
             scenes: scenes.map(|scene| (scene.name.clone(), scene.to_toml())).collect(),
         }
     }

@@ -14,6 +14,9 @@ pub struct Estimate {
     pub runs: usize,
     /// Wall time at most, s, when every run takes as long as it may; `None` where nothing bounds one of them.
     ///
+    /// A run in a process of its own counts as two hard limits, since a new process, one in a new scene, and one after
+    /// a failed run are warmed up first; an external planner has a minute more for its start.
+    ///
     /// With R the time of all runs, W that of all warm-ups, U that of the longest unit and n jobs, no order of units
     /// takes longer than (R + W)/n + (1 − 1/n)·U (Graham 1966, *Bounds for certain multiprocessing anomalies*).
     pub seconds: Option<f64>,
@@ -28,21 +31,23 @@ impl Estimate {
         let limits: Vec<Option<f64>> = planners.iter().map(|entry| limit(entry, work.isolate)).collect();
         let (mut runs, mut total, mut longest) = (0_usize, 0.0_f64, 0.0_f64);
         let mut used = vec![vec![0_usize; planners.len()]; campaign.arenas.len()];
-        for (scene, repeat) in work.shard.units(campaign.arenas.len(), campaign.comparison.repeats) {
-            let missing = (0..planners.len()).filter(|planner| !work.done.contains(&(scene, *planner, repeat)));
-            let mut unit = 0.0;
-            for planner in missing {
-                runs += 1;
-                used[scene][planner] += 1;
-                unit += limits[planner].unwrap_or(0.0);
-            }
-            total += unit;
-            longest = longest.max(unit);
+        let repeats = campaign.comparison.repeats as usize;
+        for (scene, used) in used.iter_mut().enumerate() {
+            let units = work.shard.size((scene + 1) * repeats) - work.shard.size(scene * repeats);
+            used.fill(units);
+            work.done
+                .range((scene, 0, 0)..(scene + 1, 0, 0))
+                .for_each(|(_, planner, _)| used[*planner] = used[*planner].saturating_sub(1));
+            let times = used.iter().zip(&limits).map(|(n, limit)| (*n, limit.unwrap_or(0.0)));
+            runs += used.iter().sum::<usize>();
+            total += times.clone().map(|(n, limit)| n as f64 * limit).sum::<f64>();
+            // No unit has more than every planner of which any run is missing.
+            longest = longest.max(times.map(|(n, limit)| if n > 0 { limit } else { 0.0 }).sum());
         }
-        // Every job warms a planner up that it runs in a scene, but no external one.
+        // Every job warms a planner up that it runs in a scene.
         let warm = |planner: usize, n: usize| {
-            let external = matches!(planners[planner].maker, Maker::External(_));
-            if external { 0.0 } else { limits[planner].unwrap_or(0.0) * n.min(work.jobs) as f64 }
+            let apart = work.isolate || planners[planner].isolated();
+            if apart { 0.0 } else { limits[planner].unwrap_or(0.0) * n.min(work.jobs) as f64 }
         };
         let warm: f64 = used.iter().flat_map(|row| row.iter().enumerate()).map(|(planner, n)| warm(planner, *n)).sum();
         let needed = |planner: usize| used.iter().any(|row| row[planner] > 0);
@@ -71,10 +76,14 @@ impl Estimate {
     }
 }
 
+/// What the first answer of a newly started external planner may take beyond its hard limit, s.
+const START: f64 = 60.0;
+
 /// The longest that one run may take, s.
 fn limit(entry: &PlannerEntry, isolate: bool) -> Option<f64> {
     if isolate || entry.isolated() {
-        return Some(entry.hard_limit().as_secs_f64());
+        let start = if matches!(entry.maker, Maker::External(_)) { START } else { 0.0 };
+        return Some(2.0 * entry.hard_limit().as_secs_f64() + start);
     }
     entry.budget.time_ms.map(|ms| ms / 1000.0)
 }
@@ -96,7 +105,7 @@ pub fn duration(seconds: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::BudgetSpec;
+    use crate::config::{BudgetSpec, External};
     use crate::testing::{campaign, entry, straight};
 
     fn budget(time_ms: Option<f64>) -> BudgetSpec {
@@ -110,9 +119,9 @@ mod tests {
         assert_eq!((free.runs, free.seconds), (20, None));
         let said = "no limit is known for a, b: their time has no bound without a time budget or --isolate";
         assert_eq!(free.words(), said);
-        // Without a budget a process may take a minute: 20 runs and 4 warm-ups.
+        // Without a budget a process may take a minute, and as long again when the run before has failed.
         let isolated = Estimate::new(&campaign, &Work { isolate: true, ..Work::all(1) });
-        assert_eq!(isolated.seconds, Some(24.0 * 60.0));
+        assert_eq!(isolated.seconds, Some(20.0 * 2.0 * 60.0));
 
         campaign.comparison.planners[0].budget = budget(Some(1000.0));
         assert_eq!(Estimate::new(&campaign, &Work::all(1)).unbounded, ["b"]);
@@ -128,6 +137,18 @@ mod tests {
         // Units 1, 4, 7 of 0..10: one repeat of the first scene twice, and of the second once.
         let shard = Estimate::new(&campaign, &Work { shard: "2/3".parse().unwrap(), ..Work::all(1) });
         assert_eq!((shard.runs, shard.seconds), (6, Some(12.0 + 8.0)));
+
+        // Far more units than can be looked at one by one.
+        campaign.comparison.repeats = u32::MAX;
+        let many = Estimate::new(&campaign, &Work::all(1));
+        assert_eq!(many.runs, 4 * u32::MAX as usize);
+        assert_eq!(many.seconds, Some(f64::from(u32::MAX) * 8.0 + 8.0));
+        campaign.comparison.repeats = 5;
+        let command = vec!["p".to_owned()];
+        campaign.comparison.planners[0].maker = Maker::External(External { command, folder: ".".into() });
+        campaign.comparison.planners.truncate(1);
+        // Ten runs with a hard limit of 3 s, each of which may be a process's first.
+        assert_eq!(Estimate::new(&campaign, &Work::all(1)).seconds, Some(10.0 * (3.0 + 3.0 + 60.0)));
     }
 
     #[test]

@@ -22,6 +22,7 @@ pub mod report;
 pub mod results;
 pub mod runner;
 pub mod seeds;
+mod shell;
 pub mod snapshot;
 pub mod statistics;
 pub mod status;

@@ -5,6 +5,8 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::cli::warn;
+
 /// Plain lines come at least this far apart.
 const PAUSE: Duration = Duration::from_secs(5);
 
@@ -57,7 +59,7 @@ impl Progress {
                     *spoke = Instant::now();
                     let gone = began.elapsed().as_secs_f64();
                     let left = gone / (*done - *before) as f64 * (*total - *done) as f64;
-                    eprintln!("{done}/{total} runs, {gone:.0} s gone, about {left:.0} s left");
+                    warn(format_args!("{done}/{total} runs, {gone:.0} s gone, about {left:.0} s left"));
                 }
             }
         }

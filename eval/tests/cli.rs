@@ -191,6 +191,32 @@ fn an_external_planner_needs_a_command() {
     place.refused(&["run", "external.toml"], "external.toml:4:8: an external planner without command");
 }
 
+/// A device that is always full stands for a disk that is.
+#[cfg(target_os = "linux")]
+#[test]
+fn who_does_not_listen_does_not_stop_a_campaign() {
+    let place = furnished("deaf");
+    place.write("deaf.toml", "name = \"e\"\nscenes = [\"one.toml\"]\nrepeats = 1\n[planner.mine]\nkind = \"external\"\ncommand = [\"false\"]");
+    let code = |args: &[&str]| {
+        let full = || fs::File::options().write(true).open("/dev/full").unwrap();
+        let mut command = Command::new(env!("CARGO_BIN_EXE_touchline"));
+        command.args(args).current_dir(&place.0).stdout(full()).stderr(full());
+        command.status().unwrap().code()
+    };
+    // It warns of runs that ended in errors.
+    assert_eq!(code(&["run", "deaf.toml", "--out", "out"]), Some(0));
+    assert_eq!(place.read("out/runs.csv").lines().count(), 2);
+    assert_eq!(code(&["run", "nowhere.toml"]), Some(2));
+    assert_eq!(code(&["check", "nowhere.toml"]), Some(2));
+}
+
+#[test]
+fn every_size_is_told_at_once() {
+    let place = furnished("size");
+    let said = place.ok(&["run", "small.toml", "--dry-run", "--isolate", "--repeats", "4294967295"]);
+    assert!(said.contains("= 12884901885 runs") && said.contains("Time: at most about "), "{said}");
+}
+
 #[test]
 fn one_plan_is_printed_drawn_and_traced() {
     let place = furnished("plan");

@@ -179,11 +179,14 @@ fn what_is_there_decides_what_resuming_means() {
     // Not a campaign: left alone. A start that was killed at once: begun afresh.
     place
         .refused(&["run", "small.toml", "--out", ".", "--resume"], "holds other files; expected a new or empty folder");
+    place.refused(&["run", "--out", "never", "--resume"], "nothing to go on with in never; name the comparison");
     fs::create_dir(place.0.join("never")).unwrap();
+    place.refused(&["run", "--out", "never", "--resume"], "nothing to go on with in never; name the comparison");
     place.write("never/runs.db", "");
     place.write("never/runs.lock", "");
-    place.refused(&["status", "never"], "just beginning, or never began");
-    place.refused(&["run", "small.toml", "--out", "never"], "or --resume");
+    place.refused(&["status", "never"], "name the comparison: touchline run COMPARISON --resume --out never");
+    place.refused(&["run", "small.toml", "--out", "never"], "or --resume and the comparison's file");
+    place.refused(&["run", "--out", "never", "--resume"], "nothing to go on with in never; name the comparison");
     place.ok(&["run", "small.toml", "--out", "never", "--resume", "--quiet"]);
     assert_eq!(timeless(&place.read("never/runs.csv")), timeless(&runs));
 }
@@ -293,7 +296,6 @@ fn a_place_that_cannot_be_written_to_is_named() {
     assert!(text(&output.stderr).contains("cannot create /proc/touchline: "), "{}", text(&output.stderr));
 
     place.ok(&["run", "small.toml", "--out", "out", "--quiet"]);
-    fs::remove_file(place.0.join("out/runs.csv")).unwrap();
     let touchline = env!("CARGO_BIN_EXE_touchline");
     let bind = "mount --bind out out && mount -o remount,ro,bind out";
     let shell = |script: &str| {
@@ -304,15 +306,49 @@ fn a_place_that_cannot_be_written_to_is_named() {
         eprintln!("skipped: a read-only folder, which needs the right to mount one");
         return;
     }
+    let complete = shell(&format!("{touchline} run --out out --resume"));
+    assert!(text(&complete.stdout).contains("Nothing is missing"), "{}", text(&complete.stderr));
+    fs::remove_file(place.0.join("out/runs.csv")).unwrap();
     let refused = shell(&format!("{touchline} run --out out --resume --quiet"));
     assert_eq!(refused.status.code(), Some(2));
-    assert!(
-        text(&refused.stderr).contains("cannot write into out: Read-only file system"),
-        "{}",
-        text(&refused.stderr)
-    );
+    assert!(text(&refused.stderr).contains("cannot write out/runs.csv: "), "{}", text(&refused.stderr));
     let refused = shell(&format!("{touchline} report out"));
     assert!(text(&refused.stderr).contains("cannot write out/"), "{}", text(&refused.stderr));
     let status = shell(&format!("{touchline} status out"));
     assert!(text(&status.stdout).contains("9 of 9 runs are there, 0 missing"), "{}", text(&status.stderr));
+
+    // A copy of a campaign whose last runs are in the log alone, as a kill leaves it.
+    let db = database(&place, "out").unwrap();
+    db.execute("UPDATE campaign SET name = name", []).unwrap();
+    fs::copy(place.0.join("out/runs.db-wal"), place.0.join("wal")).unwrap();
+    drop(db);
+    fs::rename(place.0.join("wal"), place.0.join("out/runs.db-wal")).unwrap();
+    let status = shell(&format!("{touchline} status out"));
+    assert_eq!(status.status.code(), Some(2));
+    let error = text(&status.stderr);
+    assert!(error.contains("its last runs are still in runs.db-wal, which can only be read where"), "{error}");
+}
+
+/// What external planners of a campaign from elsewhere would do is no result.
+#[test]
+fn external_planners_without_their_folder_are_not_run() {
+    let place = furnished("elsewhere");
+    fs::create_dir(place.0.join("first")).unwrap();
+    let planner =
+        "repeats = 2\nscenes = [\"../one.toml\"]\n[planner.mine]\nkind = \"external\"\ncommand = [\"false\"]\n";
+    place.write("first/e.toml", &format!("name = \"e\"\n{planner}"));
+    place.ok(&["run", "first/e.toml", "--shard", "1/2", "--out", "one half", "--quiet"]);
+    let resolved = place.read("one half/comparison.toml");
+    assert!(resolved.contains(&format!("folder = \"{}\"", place.0.join("first").display())), "{resolved}");
+    let printed = place.ok(&["merge", "one half", "--out", "all of it"]);
+    assert!(printed.contains("touchline run --out 'all of it' --resume"), "{printed}");
+    fs::rename(place.0.join("first"), place.0.join("second")).unwrap();
+    let resume = ["run", "--out", "all of it", "--resume", "--quiet"];
+    place.refused(&resume, &format!("planner mine: no folder {}, in which", place.0.join("first").display()));
+    place.refused(&resume, "name the comparison");
+    place.ok(&["run", "one half/comparison.toml", "--out", "one half", "--resume", "--quiet"]);
+    place.ok(&["run", "second/e.toml", "--out", "all of it", "--resume", "--quiet"]);
+    assert_eq!(place.read("all of it/runs.csv").lines().count(), 3);
+    // Complete: nobody needs the folder.
+    place.ok(&resume);
 }

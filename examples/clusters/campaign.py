@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 MASK = 2**64 - 1
-RESERVED = ("kind", "group", "varied", "budget", "hard_limit_ms", "memory_mb")
+RESERVED = ("kind", "variant", "budget", "hard_limit_ms", "memory_mb")
 COUNTS = ("iterations", "evaluations", "collision_checks", "time_us", "cpu_us")
 COLUMNS = ("scene", "planner", "repeat", "seed", "status", "length", *COUNTS, "error")
 

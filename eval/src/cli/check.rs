@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use env_model::Scene;
 use toml::de::DeTable;
 
-use super::{CheckArgs, say};
+use super::{CheckArgs, say, warn};
 use crate::campaign::Arena;
 use crate::config::{Comparison, Disk};
 use crate::error::Error;
@@ -18,7 +18,7 @@ pub(super) fn check(args: &CheckArgs) -> Result<ExitCode, Error> {
         match check_one(file, args.optimum) {
             Ok(what) => say(format!("ok: {}: {what}", file.display())),
             Err(error) => {
-                eprintln!("error: {error}");
+                warn(format_args!("error: {error}"));
                 code = ExitCode::from(2);
             }
         }
@@ -32,7 +32,7 @@ fn check_one(file: &Path, optimum: bool) -> Result<String, Error> {
     if is_comparison(&text) {
         let comparison = Comparison::from_toml(&path, &text, &Disk::beside(file))?;
         let Comparison { name, repeats, scenes, planners, notes, .. } = &comparison;
-        notes.iter().for_each(|note| eprintln!("note: {note}"));
+        notes.iter().for_each(|note| warn(format_args!("note: {note}")));
         if optimum {
             scenes.iter().try_for_each(|entry| say_optimum(&entry.scene))?;
         }

@@ -4,7 +4,7 @@ use std::process::ExitCode;
 
 use comfy_table::{CellAlignment, LineStyle, Table, TableStyle};
 
-use super::{CompareArgs, Gate, say};
+use super::{CompareArgs, Gate, say, warn};
 use crate::compare::{Change, Changes, Quality, Side, Speed, compare as compared};
 use crate::error::Error;
 use crate::format;
@@ -25,7 +25,7 @@ pub(super) fn compare(args: &CompareArgs) -> Result<ExitCode, Error> {
 }
 
 fn print(changes: &Changes) {
-    changes.notes.iter().for_each(|note| eprintln!("note: {note}"));
+    changes.notes.iter().for_each(|note| warn(format_args!("note: {note}")));
     for (what, list) in [("missing in NEW", &changes.missing), ("only in NEW", &changes.added)] {
         if !list.is_empty() {
             say(format!("{what}: {}", list.join(", ")));

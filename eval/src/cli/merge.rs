@@ -9,6 +9,7 @@ use crate::campaign::Campaign;
 use crate::config::Comparison;
 use crate::error::Error;
 use crate::merge::{self, Part};
+use crate::shell::quoted;
 use crate::store::Store;
 use crate::{replay, table};
 
@@ -26,11 +27,10 @@ pub(super) fn merge(args: &MergeArgs) -> Result<ExitCode, Error> {
     drop(Store::write(claim.folder(), &merged.stored)?);
     let _lock = claim.keep();
     let results = &merged.stored.results;
-    let out = args.out.display();
     say(format!("{name}: {} of {} runs from {} folders", results.runs.len(), results.planned(), args.dirs.len()));
     if !merged.missing.is_empty() {
         merged.missing.iter().for_each(|line| say(format!("  missing: {line}")));
-        say(format!("Make them with: touchline run --out {out} --resume"));
+        say(format!("Make them with: touchline run --out {} --resume", quoted(&args.out.display().to_string())));
         return Ok(ExitCode::SUCCESS);
     }
     let results = session::write_exports(&args.out)?;

@@ -1,7 +1,8 @@
 //! The `touchline` command line.
 //!
 //! Exit codes: 0 done, whatever the planners achieved; 1 a check that was asked
-//! for failed (`--fail-on`); 2 bad usage or input, and then nothing was written.
+//! for failed (`--fail-on`); 2 bad usage or input, and then nothing was written, or
+//! an interruption (a full disk), and then what was recorded is kept.
 
 mod check;
 mod compare;
@@ -41,7 +42,8 @@ Examples:
   touchline report out --format ompl,ioh          logs for Planner Arena, a table for IOHanalyzer
   touchline compare before after --fail-on worse  what changed, beyond noise?
 
-Exit codes: 0 done, whatever the planners achieved; 1 --fail-on found something; 2 bad usage or input.";
+Exit codes: 0 done, whatever the planners achieved; 1 --fail-on found something; 2 bad usage or input, or
+an interruption such as a full disk: then what is recorded is kept, and --resume goes on.";
 
 const SHARDS: &str = "\
 Every part is a campaign of its own, which can be resumed; all must come from the same comparison,
@@ -134,7 +136,7 @@ struct RunArgs {
     #[arg(long, value_name = "WHAT")]
     fail_on: Option<FailOn>,
     /// Go on with the campaign in the folder: make what is missing and nothing twice; begin it where there is none.
-    /// Without COMPARISON the one that the folder holds is taken. Jobs and isolation may be others than before
+    /// Without COMPARISON the one that the folder DIR holds is taken. Jobs and isolation may be others than before
     #[arg(long)]
     resume: bool,
     /// Only part I of N, counted from 1; `touchline merge` joins the parts
@@ -290,7 +292,7 @@ pub fn main() -> ExitCode {
         Some(Command::Tethered { parent, command }) => Ok(worker::tethered(parent, &command)),
     };
     outcome.unwrap_or_else(|error| {
-        eprintln!("error: {error}");
+        warn(format_args!("error: {error}"));
         ExitCode::from(2)
     })
 }
@@ -299,6 +301,12 @@ pub fn main() -> ExitCode {
 fn say(line: impl std::fmt::Display) {
     use std::io::Write;
     let _ = writeln!(std::io::stdout(), "{line}");
+}
+
+/// Prints a line to standard error; that it is closed or full is no reason to give up a campaign.
+pub(crate) fn warn(line: impl std::fmt::Display) {
+    use std::io::Write;
+    let _ = writeln!(std::io::stderr(), "{line}");
 }
 
 #[cfg(test)]

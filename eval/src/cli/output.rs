@@ -56,7 +56,7 @@ fn refusal(folder: &Path) -> Error {
     if database.exists() && !begun {
         // Not to be opened: it may become another campaign's at this moment.
         let message = "holds a campaign that is just beginning, or never began; expected a new or empty folder, \
-            or --resume";
+            or --resume and the comparison's file";
         return Error::Foreign { path: folder.to_owned(), message: message.to_owned() };
     }
     let message = match Store::open(folder).and_then(|store| store.head()) {
@@ -83,21 +83,26 @@ fn refusal(folder: &Path) -> Error {
 pub(super) enum Found {
     /// None yet: it may begin.
     Nothing(Claim),
-    /// One that was begun, and nobody else is working on it.
-    Campaign(Lock),
+    /// One that was begun, and nobody else is working on it. Without a lock it is complete, in a place that cannot be
+    /// written to.
+    Campaign(Option<Lock>),
 }
 
 /// Looks for a campaign in `folder`, which is created where it is missing.
 pub(super) fn find(folder: &Path) -> Result<Found, Error> {
     let mut claim = Claim::default();
     claim.make(folder)?;
-    let Some(lock) = Lock::take(folder)? else {
+    let lock = match Lock::take(folder) {
+        Err(_) if is_finished(folder) => return Ok(Found::Campaign(None)),
+        lock => lock?,
+    };
+    let Some(lock) = lock else {
         let message = "another process is working on this campaign; expected it to end first".to_owned();
         return Err(Error::Foreign { path: folder.to_owned(), message });
     };
     if !Store::is_blank(folder)? {
         claim.keep = true;
-        return Ok(Found::Campaign(lock));
+        return Ok(Found::Campaign(Some(lock)));
     }
     let ours = |name: &OsStr| name == lock::FILE || name.to_str().is_some_and(|n| FILES.contains(&n));
     let entries = fs::read_dir(folder).map_err(Error::io("use the folder", folder))?;
@@ -108,6 +113,11 @@ pub(super) fn find(folder: &Path) -> Result<Found, Error> {
     }
     (claim.folder, claim.taken, claim.lock) = (folder.to_owned(), true, Some(lock));
     Ok(Found::Nothing(claim))
+}
+
+fn is_finished(folder: &Path) -> bool {
+    let head = Store::open(folder).and_then(|store| store.head());
+    head.is_ok_and(|stored| !stored.results.manifest.finished.is_empty())
 }
 
 /// The database, and what `SQLite` puts beside it.

@@ -5,9 +5,9 @@ use std::process::ExitCode;
 
 use super::output::{self, Claim, Found};
 use super::session::{self, Place};
-use super::{FailOn, RunArgs, say};
+use super::{FailOn, RunArgs, say, warn};
 use crate::campaign::Campaign;
-use crate::config::{Comparison, Disk, EMBEDDED_NAME, Embedded};
+use crate::config::{Comparison, Disk, EMBEDDED_NAME, Embedded, External, Maker};
 use crate::differences::{Signature, differences};
 use crate::error::Error;
 use crate::estimate::{self, Estimate};
@@ -37,6 +37,10 @@ pub(super) fn run(args: &RunArgs) -> Result<ExitCode, Error> {
     };
     if !args.quiet {
         introduce(&campaign, &work);
+    }
+    let units = work.shard.size(campaign.arenas.len() * campaign.comparison.repeats as usize);
+    if work.done.len() < units * campaign.comparison.planners.len() {
+        find_programs(&campaign.comparison)?;
     }
     if args.dry_run {
         if !args.quiet {
@@ -70,7 +74,12 @@ pub(super) fn run(args: &RunArgs) -> Result<ExitCode, Error> {
 /// The campaign that is asked for: of a file, of the folder in which to go on, or the embedded one.
 fn campaign(args: &RunArgs) -> Result<Campaign, Error> {
     let mut comparison = match &args.out {
-        Some(out) if args.resume && args.comparison.is_none() && !Store::is_blank(out)? => {
+        Some(out) if args.resume && args.comparison.is_none() => {
+            if Store::is_blank(out)? {
+                // Not the embedded comparison: the folder's name may be mistyped.
+                let nothing = format!("nothing to go on with in {}; name the comparison", out.display());
+                return Err(Error::Usage(nothing));
+            }
             Comparison::from_stored(&Store::open(out)?.head()?)?
         }
         _ => read(args.comparison.as_deref())?,
@@ -81,6 +90,22 @@ fn campaign(args: &RunArgs) -> Result<Campaign, Error> {
         comparison.keep_planners(&args.planner).map_err(Error::Usage)?;
     }
     Campaign::new(comparison).map_err(|e| Error::Usage(e.to_string()))
+}
+
+/// External planners of a campaign from elsewhere cannot run here: an error, before that becomes their result.
+fn find_programs(comparison: &Comparison) -> Result<(), Error> {
+    for planner in &comparison.planners {
+        if let Maker::External(External { folder, .. }) = &planner.maker
+            && !folder.is_dir()
+        {
+            let (label, folder) = (&planner.label, folder.display());
+            return Err(Error::Usage(format!(
+                "planner {label}: no folder {folder}, in which its command is to run; name the comparison, \
+                 whose folder then counts"
+            )));
+        }
+    }
+    Ok(())
 }
 
 /// Reads a comparison file, or the embedded one.
@@ -122,14 +147,15 @@ fn going_on(
     work.shard = manifest.part();
     work.done = campaign.done(&store.keys()?);
     if !args.quiet && manifest.finished.is_empty() && manifest.jobs > work.jobs {
-        eprintln!("note: runs were made with {} jobs before: all times count as taken with as many", manifest.jobs);
+        let jobs = manifest.jobs;
+        warn(format_args!("note: runs were made with {jobs} jobs before: all times count as taken with as many"));
     }
     Ok(head)
 }
 
 /// Size, part, what is there already, and how long the rest may take.
 fn introduce(campaign: &Campaign, work: &Work) {
-    campaign.comparison.notes.iter().for_each(|note| eprintln!("note: {note}"));
+    campaign.comparison.notes.iter().for_each(|note| warn(format_args!("note: {note}")));
     say(campaign.size(work.jobs));
     let estimate = Estimate::new(campaign, work);
     if !work.shard.is_whole() {
@@ -176,13 +202,13 @@ fn doubts(results: &Results) {
     }
     // 1e-9 is far above the rounding of a sum of a hundred lengths, and below any gap of interest.
     if let Some(run) = results.runs.iter().find(|r| r.gap.is_some_and(|gap| gap < -1e-9)) {
-        eprintln!(
+        warn(format_args!(
             "warning: {} found a valid path shorter than the optimum in {} (repeat {}): please report this",
             run.planner, run.scene, run.repeat
-        );
+        ));
     }
     let errors = results.runs.iter().filter(|r| r.error.is_some()).count();
     if errors > 0 {
-        eprintln!("warning: {errors} runs ended in errors: see the column error of runs.csv");
+        warn(format_args!("warning: {errors} runs ended in errors: see the column error of runs.csv"));
     }
 }

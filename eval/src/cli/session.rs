@@ -10,6 +10,7 @@ use crate::lock::Lock;
 use crate::progress::Progress;
 use crate::report::Language;
 use crate::results::{Manifest, Results, Session};
+use crate::shell::quoted;
 use crate::store::{Store, Stored};
 use crate::work::Work;
 use crate::{machine, replay, runner};
@@ -20,8 +21,8 @@ use super::output::Claim;
 pub(super) enum Place {
     /// Nothing is there yet.
     New(Claim),
-    /// A campaign, without its runs, that may lack some.
-    Old(Lock, Box<Stored>),
+    /// A campaign, without its runs, that may lack some; unlocked only where it is complete and nothing can be written.
+    Old(Option<Lock>, Box<Stored>),
 }
 
 /// Makes the runs of `work` and whatever else is missing in `folder`.
@@ -47,7 +48,7 @@ pub(super) fn carry_out(
             }
             resume(manifest, work);
             let store = Store::resume(folder, manifest).map_err(|e| interrupted(e, &head.results, work, folder, 0))?;
-            (*head, store, Some(lock))
+            (*head, store, lock)
         }
     };
     let mut made = 0;
@@ -128,7 +129,7 @@ pub(super) fn write_exports(folder: &Path) -> Result<Results, Error> {
         source: Box::new(source),
         kept: format!("all {} runs are kept in {}", stored.results.runs.len(), folder.display()),
         what: "make the exports",
-        command: format!("touchline report {}", folder.display()),
+        command: format!("touchline report {}", quoted(&folder.display().to_string())),
     })?;
     Ok(stored.results)
 }
@@ -141,7 +142,7 @@ fn interrupted(source: Error, head: &Results, work: &Work, folder: &Path, made: 
         source: Box::new(source),
         kept: format!("{} of {} runs are kept in {}", work.done.len() + made, head.planned(), folder.display()),
         what: "go on",
-        command: format!("touchline run --out {} --resume{jobs}{isolate}", folder.display()),
+        command: format!("touchline run --out {} --resume{jobs}{isolate}", quoted(&folder.display().to_string())),
     }
 }
 

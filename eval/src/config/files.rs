@@ -17,7 +17,7 @@ pub trait Files {
     /// Opens a file.
     fn open(&self, relative: &str) -> Result<Opened, String>;
 
-    /// Where commands named in the comparison run.
+    /// Where external planners run whose tables name no folder.
     fn folder(&self) -> &Path;
 
     /// The file's name for messages and its text.
@@ -87,7 +87,6 @@ impl Files for Embedded {
 
 /// The scenes of a campaign that is kept, under the names that its resolved comparison gives them.
 pub struct Kept {
-    folder: PathBuf,
     texts: BTreeMap<String, String>,
 }
 
@@ -96,13 +95,14 @@ impl Kept {
     pub fn new(stored: &Stored) -> Self {
         let scenes = stored.scene_files.iter().zip(&stored.results.scenes);
         let texts = scenes.map(|(file, scene)| (file.clone(), scene.scene.to_toml())).collect();
-        Self { folder: stored.folder.as_deref().unwrap_or(".").into(), texts }
+        Self { texts }
     }
 }
 
 impl Files for Kept {
     fn folder(&self) -> &Path {
-        &self.folder
+        // Every external planner of a resolved comparison says its own.
+        Path::new(".")
     }
 
     fn open(&self, relative: &str) -> Result<Opened, String> {

@@ -45,7 +45,7 @@ use crate::results::SceneSet;
 use crate::store::Stored;
 
 pub use files::{Disk, EMBEDDED_NAME, Embedded, Files, Kept, Opened};
-pub use planners::{BudgetSpec, External, Factory, Limits, Maker, PlannerEntry, from_settings, single};
+pub use planners::{BudgetSpec, External, FOLDER, Factory, Limits, Maker, PlannerEntry, from_settings, single};
 pub use scenes::refuse_motion;
 
 /// A comparison, resolved: scenes read or generated, planners built once, every setting known.
@@ -152,6 +152,15 @@ impl Comparison {
     /// The comparison with everything said: reading it back gives the same one. Its scenes are
     /// the files `scenes/<name>.toml` next to it, see [`Comparison::scene_files`].
     pub fn to_toml(&self) -> String {
+        self.resolved(PlannerEntry::to_toml)
+    }
+
+    /// The same without what differs between machines: what identity is made of.
+    pub fn portable_toml(&self) -> String {
+        self.resolved(PlannerEntry::portable_toml)
+    }
+
+    fn resolved(&self, planner_toml: fn(&PlannerEntry) -> String) -> String {
         let text = |s: &str| toml::Value::String(s.to_owned()).to_string();
         let mut out = format!("name = {}\nseed = {}\nrepeats = {}\n", text(&self.name), self.seed, self.repeats);
         let files = self.scene_files();
@@ -164,7 +173,7 @@ impl Comparison {
         }
         for planner in &self.planners {
             out.push('\n');
-            out.push_str(&planner.to_toml());
+            out.push_str(&planner_toml(planner));
         }
         out
     }

@@ -15,6 +15,12 @@ use toml::de::{DeTable, DeValue};
 use super::sweep::{Variant, expand};
 use super::{from_table, table_of};
 
+/// The key that names an external planner's folder; no part of a campaign's identity.
+pub const FOLDER: &str = "folder";
+
+/// The key under which a resolved comparison says of which planner another is a variant, and by what.
+const VARIANT: &str = "variant";
+
 /// Makes instances of one planner, one for each thread.
 pub type Factory = Box<dyn Fn() -> Box<dyn Planner> + Send + Sync>;
 
@@ -31,7 +37,7 @@ pub enum Maker {
 pub struct External {
     /// Program and arguments.
     pub command: Vec<String>,
-    /// Where it runs: the comparison's folder.
+    /// Where it runs, absolute: the comparison's folder unless its table says another.
     pub folder: PathBuf,
 }
 
@@ -144,15 +150,32 @@ impl PlannerEntry {
 
     /// Its `[planner.LABEL]` table with everything said.
     pub fn to_toml(&self) -> String {
+        self.labelled(self.table())
+    }
+
+    /// The same without what differs between machines: the folder of an external planner.
+    pub fn portable_toml(&self) -> String {
+        let mut table = self.table();
+        if matches!(self.maker, Maker::External(_)) {
+            table.remove(FOLDER);
+        }
+        self.labelled(table)
+    }
+
+    fn labelled(&self, table: toml::Table) -> String {
+        let label = toml::Table::from_iter([(self.label.clone(), toml::Value::Table(table))]);
+        toml::Table::from_iter([("planner".to_owned(), toml::Value::Table(label))]).to_string()
+    }
+
+    fn table(&self) -> toml::Table {
         let mut table = toml::Table::new();
         table.insert("kind".into(), self.kind.clone().into());
         if self.group != self.label {
-            table.insert("group".into(), self.group.clone().into());
-            table.insert("varied".into(), self.varied.clone().into());
+            let written = [("of", &self.group), ("by", &self.varied)];
+            let variant = written.map(|(key, text)| (key.to_owned(), text.clone().into()));
+            table.insert(VARIANT.into(), toml::Table::from_iter(variant).into());
         }
-        if let Maker::External(external) = &self.maker {
-            table.insert("command".into(), external.command.clone().into());
-        }
+        table.extend(self.program());
         if let Some(ms) = self.limits.hard_limit_ms {
             table.insert("hard_limit_ms".into(), ms.into());
         }
@@ -164,13 +187,21 @@ impl PlannerEntry {
             table.insert("budget".into(), budget.into());
         }
         table.extend(self.settings.clone());
-        let label = toml::Table::from_iter([(self.label.clone(), toml::Value::Table(table))]);
-        toml::Table::from_iter([("planner".to_owned(), toml::Value::Table(label))]).to_string()
+        table
     }
 
-    /// The settings as the report prints them.
+    /// The keys that say which program an external planner is.
+    fn program(&self) -> toml::Table {
+        let Maker::External(External { command, folder }) = &self.maker else { return toml::Table::new() };
+        let folder = folder.display().to_string();
+        toml::Table::from_iter([("command".to_owned(), command.clone().into()), (FOLDER.to_owned(), folder.into())])
+    }
+
+    /// The settings as the report prints them, with the program of an external planner.
     pub fn settings_toml(&self) -> String {
-        self.settings.to_string()
+        let mut table = self.program();
+        table.extend(self.settings.clone());
+        table.to_string()
     }
 }
 
@@ -292,13 +323,18 @@ fn entry(
         },
     };
     let limits = limits(source, keys)?;
-    let group = text(source, keys.remove("group"))?.unwrap_or_else(|| label.to_owned());
-    let varied = text(source, keys.remove("varied"))?.unwrap_or_default();
+    let (group, varied) = match keys.remove(VARIANT) {
+        Some(value) => variant(source, value)?,
+        None => (label.to_owned(), String::new()),
+    };
     let label = label.to_owned();
     let command = keys.remove("command");
     if kind == "external" {
         let command = command_of(source, kind_at, command)?;
-        let maker = Maker::External(External { command, folder: folder.to_owned() });
+        let folder = text(source, keys.remove(FOLDER))?.map_or_else(|| folder.to_owned(), |own| folder.join(own));
+        // Fails where not even the current folder is known.
+        let folder = std::path::absolute(&folder).unwrap_or(folder);
+        let maker = Maker::External(External { command, folder });
         if let Some(refine) = keys.remove("refine") {
             let message = "refine in an external planner's table; expected a planner of the catalogue";
             return Err(source.error_at(refine.span(), message));
@@ -326,6 +362,18 @@ fn text(source: &Source<'_>, value: Option<Spanned<DeValue<'_>>>) -> Result<Opti
     match value.get_ref() {
         DeValue::String(text) => Ok(Some(text.to_string())),
         other => Err(source.error_at(value.span(), format!("found {}; expected text", other.type_str()))),
+    }
+}
+
+/// What a resolved comparison says of a variant: its group, and what tells it from the others.
+fn variant(source: &Source<'_>, value: Spanned<DeValue<'_>>) -> Result<(String, String), FileError> {
+    const EXPECTED: &str = "variant = { of = \"pso\", by = \"inertia=0.5\" }, as resolved comparisons have it";
+    let span = value.span();
+    let mut table = table_of(source, value, EXPECTED)?.into_inner();
+    let (of, by) = (text(source, table.remove("of"))?, text(source, table.remove("by"))?);
+    match (of, by) {
+        (Some(of), Some(by)) if table.is_empty() => Ok((of, by)),
+        _ => Err(source.error_at(span, format!("expected {EXPECTED}"))),
     }
 }
 

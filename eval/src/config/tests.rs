@@ -353,14 +353,15 @@ fn sweeps_and_budgets_make_labelled_variants() {
 #[test]
 fn external_planners_and_limits() {
     let ours = "[planner.mine]\nkind = \"external\"\ncommand = [\"python3\", \"p.py\"]\nmemory_mb = 64\nhard_limit_ms = 2.5\n\
-                gain = 3\n[planner.pso]\nmemory_mb = 10\n[planner.tangent]";
+                gain = 3\ngroup = 1\nvaried = 2\n[planner.pso]\nmemory_mb = 10\n[planner.tangent]";
     let c = Comparison::from_toml("x.toml", &format!("name = \"x\"\nscenes = [\"a.toml\"]\n{ours}"), &Memory).unwrap();
     let isolated: Vec<bool> = c.planners.iter().map(PlannerEntry::isolated).collect();
     assert_eq!(isolated, [true, true, false]);
     assert_eq!(c.planners[0].limits, Limits { hard_limit_ms: Some(2.5), memory_mb: Some(64) });
     assert_eq!(c.planners[0].hard_limit().as_secs_f64(), 0.0025);
     assert_eq!(c.planners[1].hard_limit().as_secs_f64(), 60.0, "a minute without a time budget");
-    assert_eq!(c.planners[0].settings["gain"].as_integer(), Some(3));
+    let settings: Vec<&str> = c.planners[0].settings.keys().map(String::as_str).collect();
+    assert_eq!(settings, ["gain", "group", "varied"], "all others are its own");
     assert!(labels(ours).is_ok());
     for (text, part) in [
         ("kind = \"external\"", "without command"),
@@ -368,12 +369,36 @@ fn external_planners_and_limits() {
         ("kind = \"external\"\ncommand = [1]", "found integer; expected text"),
         ("kind = \"external\"\ncommand = [\"a\"]\nrefine = [\"qp\"]", "refine in an external"),
         ("kind = \"pso\"\ncommand = [\"a\"]", "expected kind = \"external\""),
+        ("kind = \"pso\"\nvariant = \"x\"", "found string; expected variant = { of = "),
+        ("kind = \"pso\"\nvariant = { of = \"x\" }", "expected variant = { of = "),
+        ("kind = \"pso\"\nvariant = { of = \"x\", by = 1 }", "found integer; expected text"),
+        ("kind = \"pso\"\nvariant = { of = \"x\", by = \"y\", z = 1 }", "expected variant = { of = "),
         ("kind = \"pso\"\nmemory_mb = 0", "memory_mb: expected mebibytes"),
         ("kind = \"pso\"\nhard_limit_ms = \"x\"", "hard_limit_ms: expected milliseconds"),
     ] {
         let error = labels(&format!("[planner.a]\n{text}")).unwrap_err();
         assert!(error.contains(part), "{text}: {error}");
     }
+}
+
+#[test]
+fn the_folder_of_an_external_planner_is_said_but_no_part_of_identity() {
+    let read = |keys: &str| {
+        let planner = format!("[planner.mine]\nkind = \"external\"\ncommand = [\"./p\"]\n{keys}");
+        Comparison::from_toml("x.toml", &format!("name = \"x\"\nscenes = [\"a.toml\"]\n{planner}"), &Memory)
+    };
+    let folder = |c: &Comparison| match &c.planners[0].maker {
+        Maker::External(external) => external.folder.clone(),
+        Maker::Catalogue(_) => unreachable!("it is external"),
+    };
+    let [usual, own, far] = ["", "folder = \"own\"", "folder = \"/far\""].map(|keys| read(keys).unwrap());
+    let here = std::env::current_dir().unwrap();
+    assert_eq!([folder(&usual), folder(&own), folder(&far)], [here.clone(), here.join("own"), "/far".into()]);
+    assert!(own.to_toml().contains(&format!("folder = \"{}\"", here.join("own").display())), "{}", own.to_toml());
+    assert!(own.planners[0].settings.is_empty());
+    assert_eq!(usual.portable_toml(), far.portable_toml());
+    assert_ne!(usual.to_toml(), far.to_toml());
+    assert!(read("folder = 1").err().unwrap().to_string().contains("x.toml:6:10: found integer; expected text"));
 }
 
 #[test]

@@ -4,8 +4,9 @@ use toml::{Table, Value};
 
 use crate::config;
 use crate::results::PlannerInfo;
+use crate::shell::quoted;
 
-/// The command; runs of external planners and of kinds that this program does not know are replayed all together.
+/// The command; runs of kinds that this program does not know are replayed all together.
 pub fn command(planner: &PlannerInfo, scene_file: &str, seed: u64) -> String {
     let mut words = vec!["touchline".to_owned()];
     match settings(planner) {
@@ -27,9 +28,12 @@ pub fn command(planner: &PlannerInfo, scene_file: &str, seed: u64) -> String {
     words.join(" ")
 }
 
-/// The settings that make this planner from its kind's defaults; `None` where the catalogue does not make it.
+/// The settings that make this planner from its kind's defaults, the program of an external one included; `None`
+/// where this program does not make it.
 fn settings(planner: &PlannerInfo) -> Option<Table> {
-    let wanted: Table = toml::from_str(&planner.settings).ok()?;
+    let mut wanted: Table = toml::from_str(&planner.settings).ok()?;
+    // Said key by key.
+    wanted.remove("budget");
     let made = |settings: &Table| config::single("", &planner.kind, &settings.to_string()).ok().map(|e| e.settings);
     let whole = made(&wanted)?;
     let defaults = made(&Table::new()).unwrap_or_default();
@@ -51,16 +55,6 @@ fn is_bare(text: &str) -> bool {
     let plain = |c: char| c.is_ascii_alphabetic() || c == '-' || c == '_';
     // Words that TOML itself knows.
     !text.is_empty() && text.chars().all(plain) && !["true", "false", "inf", "nan", "-inf", "-nan"].contains(&text)
-}
-
-/// `word` as one word of a POSIX shell.
-fn quoted(word: &str) -> String {
-    let safe = |c: char| c.is_ascii_alphanumeric() || "_./=:,+-".contains(c);
-    if !word.is_empty() && word.chars().all(safe) {
-        word.to_owned()
-    } else {
-        format!("'{}'", word.replace('\'', r"'\''"))
-    }
 }
 
 #[cfg(test)]
@@ -101,17 +95,23 @@ mod tests {
     }
 
     #[test]
-    fn words_survive_the_shell() {
-        assert_eq!(quoted("scenes/a b.toml"), "'scenes/a b.toml'");
-        assert_eq!(quoted("it's"), r"'it'\''s'");
+    fn texts_that_look_like_more_keep_their_quotes() {
         assert_eq!(shown(&Value::String("inf".to_owned())), "\"inf\"");
         assert_eq!(shown(&Value::String("12".to_owned())), "\"12\"");
     }
 
     #[test]
     fn external_planners_run_again() {
-        let planner =
-            PlannerInfo { budget: BudgetSpec::default(), ..PlannerInfo::plain("my own", "external", "gain = 1\n") };
-        assert_eq!(command(&planner, "scenes/a.toml", 7), "touchline run comparison.toml --planner 'my own'");
+        let own = info(
+            "external",
+            "command = [\"sh\", \"my own.sh\"]\nfolder = \"/a b\"\ngain = 1\nbudget = { time_ms = 5 }",
+        );
+        let said =
+            "--set 'command=[\"sh\", \"my own.sh\"]' --set 'folder=\"/a b\"' --set gain=1 --set budget.time_ms=5.0";
+        let expected = format!("touchline plan scenes/a.toml --planner external {said} --seed 7");
+        assert_eq!(command(&own, "scenes/a.toml", 7), expected);
+        let unknown =
+            PlannerInfo { budget: BudgetSpec::default(), ..PlannerInfo::plain("my own", "lost", "gain = 1\n") };
+        assert_eq!(command(&unknown, "scenes/a.toml", 7), "touchline run comparison.toml --planner 'my own'");
     }
 }

@@ -18,6 +18,7 @@ use crate::campaign::Campaign;
 use crate::config::BudgetSpec;
 use crate::error::Error;
 use crate::results::{Manifest, Results, RunRecord, RunStatus};
+use crate::shell::quoted;
 use crate::snapshot::Snapshot;
 use read::Read;
 
@@ -36,8 +37,7 @@ CREATE TABLE campaign (
     seed INTEGER NOT NULL,
     repeats INTEGER NOT NULL,
     comparison TEXT NOT NULL,          -- resolved, TOML
-    manifest TEXT NOT NULL,            -- JSON; finished = '' while the campaign lasts
-    folder TEXT                        -- where the commands of external planners run, if there are any
+    manifest TEXT NOT NULL             -- JSON; finished = '' while the campaign lasts
 );
 CREATE TABLE planner (
     position INTEGER PRIMARY KEY,
@@ -98,8 +98,6 @@ pub struct Stored {
     pub scene_files: Vec<String>,
     /// How long each scene took to compile, µs, in that order too.
     pub compile_us: Vec<f64>,
-    /// Where the commands of external planners run, on the machine where the campaign began; no part of its identity.
-    pub folder: Option<String>,
 }
 
 /// How many runs of one planner in one scene ended in one way.
@@ -150,7 +148,7 @@ impl Store {
             Ok(_) => {}
         }
         let fail = |source| Error::Store { path: path.clone(), source };
-        let db = connect(&path).map_err(fail)?;
+        let db = connect(&path)?;
         let tables = db.query_row("SELECT count(*) FROM sqlite_master", [], |row| row.get::<_, i64>(0));
         tables.map(|n| n == 0).map_err(fail)
     }
@@ -163,9 +161,11 @@ impl Store {
         if !path.is_file() {
             return Err(foreign("no such file; expected the folder of a campaign".to_owned()));
         }
-        let db = connect(&path).map_err(fail)?;
+        let db = connect(&path)?;
         if Self::is_blank(folder)? {
-            return Err(foreign("empty: a campaign that is just beginning, or never began".to_owned()));
+            let message = "empty: a campaign that is just beginning, or never began; \
+                to begin it, name the comparison: touchline run COMPARISON --resume --out";
+            return Err(foreign(format!("{message} {}", quoted(&folder.display().to_string()))));
         }
         let known = "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name IN ('campaign', 'run')";
         let tables: i64 = db.query_row(known, [], |row| row.get(0)).map_err(fail)?;
@@ -259,22 +259,27 @@ fn durable(db: &Connection) -> rusqlite::Result<()> {
 
 /// A connection to a database that is there. In a place that cannot be written to, `SQLite` reads a WAL database only
 /// when told that nobody else writes it; with a log still beside it, that would hide the last runs.
-fn connect(path: &Path) -> rusqlite::Result<Connection> {
-    let db = Connection::open_with_flags(path, OpenFlags::SQLITE_OPEN_READ_WRITE)?;
+fn connect(path: &Path) -> Result<Connection, Error> {
+    let fail = |source| Error::Store { path: path.to_owned(), source };
+    let db = Connection::open_with_flags(path, OpenFlags::SQLITE_OPEN_READ_WRITE).map_err(fail)?;
     let tried = db.query_row("SELECT count(*) FROM sqlite_master", [], |row| row.get::<_, i64>(0));
     let mut log = path.as_os_str().to_owned();
     log.push("-wal");
     match tried {
-        Err(e)
-            if matches!(e.sqlite_error_code(), Some(ErrorCode::CannotOpen | ErrorCode::ReadOnly))
-                && !Path::new(&log).exists() =>
-        {
+        Err(e) if matches!(e.sqlite_error_code(), Some(ErrorCode::CannotOpen | ErrorCode::ReadOnly)) => {
+            if Path::new(&log).exists() {
+                let message = format!(
+                    "{e}: its last runs are still in {FILE}-wal, which can only be read where {FILE}-shm can be \
+                     written; expected a folder that can be written into, such as a copy"
+                );
+                return Err(Error::Foreign { path: path.to_owned(), message });
+            }
             let escaped: String =
                 path.display().to_string().replace('%', "%25").replace('?', "%3f").replace('#', "%23");
             let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_URI;
-            Connection::open_with_flags(format!("file:{escaped}?immutable=1"), flags)
+            Connection::open_with_flags(format!("file:{escaped}?immutable=1"), flags).map_err(fail)
         }
-        other => other.map(|_| db),
+        other => other.map(|_| db).map_err(fail),
     }
 }
 

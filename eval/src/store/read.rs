@@ -24,15 +24,13 @@ fn path(json: &str) -> Result<Vec<Point>, String> {
 
 /// Everything but runs and snapshots.
 pub(super) fn head(db: &Connection, schema: i64) -> Read<Stored> {
-    type Head = (String, i64, u32, String, String, Option<String>);
+    type Head = (String, i64, u32, String, String);
     // What older versions lack.
-    let (variant, role, folder) =
-        if schema < SCHEMA { ("NULL", "'test'", "NULL") } else { ("variant", "role", "folder") };
-    let (name, seed, repeats, comparison, manifest, folder): Head = db.query_row(
-        &format!("SELECT name, seed, repeats, comparison, manifest, {folder} FROM campaign"),
-        [],
-        |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?, row.get(3)?, row.get(4)?, row.get(5)?)),
-    )?;
+    let (variant, role) = if schema < SCHEMA { ("NULL", "'test'") } else { ("variant", "role") };
+    let (name, seed, repeats, comparison, manifest): Head =
+        db.query_row("SELECT name, seed, repeats, comparison, manifest FROM campaign", [], |row| {
+            Ok((row.get(0)?, row.get(1)?, row.get(2)?, row.get(3)?, row.get(4)?))
+        })?;
     let mut statement =
         db.prepare(&format!("SELECT label, kind, settings, {variant} FROM planner ORDER BY position"))?;
     let planners = collect(statement.query_map([], |row| {
@@ -73,7 +71,7 @@ pub(super) fn head(db: &Connection, schema: i64) -> Read<Stored> {
         let (runs, snapshots) = (Vec::new(), Vec::new());
         let (planners, seed) = (planners?, seed as u64);
         let results = Results { name, seed, repeats, planners, scenes, runs, snapshots, manifest };
-        Ok(Stored { results, comparison, scene_files, compile_us, folder })
+        Ok(Stored { results, comparison, scene_files, compile_us })
     })())
 }
 

@@ -18,20 +18,12 @@ fn points(path: &[Point]) -> String {
 
 /// Everything at once.
 pub(super) fn fill(db: &mut Connection, stored: &Stored) -> rusqlite::Result<()> {
-    let Stored { results, comparison, scene_files, compile_us, folder } = stored;
+    let Stored { results, comparison, scene_files, compile_us } = stored;
     let tx = db.transaction()?;
     tx.execute_batch(TABLES)?;
     tx.execute(
-        "INSERT INTO campaign VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)",
-        params![
-            SCHEMA,
-            results.name,
-            results.seed as i64,
-            results.repeats,
-            comparison,
-            json(&results.manifest),
-            folder
-        ],
+        "INSERT INTO campaign VALUES (?1, ?2, ?3, ?4, ?5, ?6)",
+        params![SCHEMA, results.name, results.seed as i64, results.repeats, comparison, json(&results.manifest)],
     )?;
     for (i, planner) in results.planners.iter().enumerate() {
         tx.execute(
