@@ -10,6 +10,7 @@ pub mod error;
 pub mod estimate;
 pub mod export;
 mod format;
+mod json;
 pub mod lock;
 pub mod machine;
 pub mod merge;

@@ -1,10 +1,11 @@
 //! What the bench itself costs. The figures of the machine at hand, in release:
 //! `cargo test -p eval --release --test harness -- --ignored --nocapture`.
 
-use std::fs;
-use std::path::PathBuf;
+mod common;
+
 use std::time::Instant;
 
+use common::Place;
 use eval::campaign::{Campaign, micros};
 use eval::config::{Comparison, Disk};
 use eval::runner;
@@ -12,26 +13,21 @@ use eval::store::Store;
 use eval::verdict::Judge;
 use eval::work::Work;
 
-/// A folder of its own for each test, gone afterwards.
-struct Place(PathBuf);
+/// A place with the scene of 2012.
+fn furnished(name: &str) -> Place {
+    let place = Place::new(name);
+    place.write("scene.toml", include_str!("../../configs/scenes/lu-sun-2012.toml"));
+    place
+}
 
 impl Place {
-    fn new(name: &str) -> Self {
-        let folder = std::env::temp_dir().join(format!("touchline-harness-{}-{name}", std::process::id()));
-        let _ = fs::remove_dir_all(&folder);
-        fs::create_dir_all(&folder).unwrap();
-        let scene = include_str!("../../configs/scenes/lu-sun-2012.toml");
-        fs::write(folder.join("scene.toml"), scene).unwrap();
-        Self(folder)
-    }
-
     /// One planner in the scene of 2012.
     fn comparison(&self, planner: &str, repeats: u32) -> String {
         let text = format!(
             "name = \"harness\"\nrepeats = {repeats}\nscenes = [\"scene.toml\"]\n
             [planner.{planner}]\n"
         );
-        fs::write(self.0.join("harness.toml"), &text).unwrap();
+        self.write("harness.toml", &text);
         text
     }
 
@@ -42,12 +38,6 @@ impl Place {
     }
 }
 
-impl Drop for Place {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
-    }
-}
-
 fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values[values.len() / 2]
@@ -55,11 +45,10 @@ fn median(mut values: Vec<f64>) -> f64 {
 
 #[test]
 fn reaching_a_process_takes_less_than_a_millisecond() {
-    let place = Place::new("overhead");
+    let place = furnished("overhead");
     place.comparison("straight-line", 1000);
     let run = ["run", "harness.toml", "--out", "out", "--quiet", "--isolate"];
-    let mut bench = std::process::Command::new(env!("CARGO_BIN_EXE_touchline"));
-    assert!(bench.args(run).current_dir(&place.0).status().unwrap().success());
+    place.ok(&run);
     let runs = Store::open(&place.0.join("out")).unwrap().read().unwrap().results.runs;
     let overheads: Vec<f64> = runs.iter().map(|run| run.overhead_us.expect("isolated")).collect();
     assert_eq!(overheads.len(), 1000);
@@ -73,7 +62,7 @@ fn reaching_a_process_takes_less_than_a_millisecond() {
 #[test]
 #[ignore = "a figure for a quiet machine, in release"]
 fn a_run_costs_the_bench_less_than_a_tenth_of_a_millisecond() {
-    let place = Place::new("own-time");
+    let place = furnished("own-time");
     let campaign = place.campaign("straight-line", 10_000);
     let results = campaign.empty_results(1);
     let optima: Vec<Option<f64>> = results.scenes.iter().map(|s| s.optimum.length).collect();
@@ -112,7 +101,7 @@ fn a_run_costs_the_bench_less_than_a_tenth_of_a_millisecond() {
 #[test]
 #[ignore = "a figure for a quiet machine, in release"]
 fn two_jobs_do_nearly_twice_the_work() {
-    let place = Place::new("throughput");
+    let place = furnished("throughput");
     let campaign = place.campaign("pso", 400);
     let seconds = |jobs| {
         let began = Instant::now();

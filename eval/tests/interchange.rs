@@ -1,51 +1,15 @@
 //! What other programs read and write: OMPL's log, `IOHanalyzer`'s table, one JSON document, grid maps; and the gate
 //! against regressions, on a small comparison whose counts are kept in the repository.
 
+mod common;
+
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+
+use common::Place;
 
 fn repository() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
-
-/// A folder of its own for each test, gone afterwards.
-struct Place(PathBuf);
-
-impl Place {
-    fn new(name: &str) -> Self {
-        let folder = std::env::temp_dir().join(format!("touchline-interchange-{}-{name}", std::process::id()));
-        let _ = fs::remove_dir_all(&folder);
-        fs::create_dir_all(&folder).unwrap();
-        Self(folder)
-    }
-
-    /// Exit code, standard output and standard error.
-    fn run(&self, args: &[&str]) -> (i32, String, String) {
-        let output = Command::new(env!("CARGO_BIN_EXE_touchline")).args(args).current_dir(&self.0).output().unwrap();
-        let text = |bytes| String::from_utf8(bytes).unwrap();
-        (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
-    }
-
-    fn ok(&self, args: &[&str]) -> String {
-        let (code, printed, errors) = self.run(args);
-        assert_eq!(code, 0, "{args:?}: {errors}");
-        printed
-    }
-
-    fn write(&self, name: &str, text: &str) {
-        fs::write(self.0.join(name), text).unwrap();
-    }
-
-    fn read(&self, name: &str) -> String {
-        fs::read_to_string(self.0.join(name)).unwrap_or_else(|e| panic!("{name}: {e}"))
-    }
-}
-
-impl Drop for Place {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
-    }
 }
 
 const MAP: &str = "type octile\nheight 5\nwidth 7\nmap\n.......\n.@@@@..\n....@..\n..T.@..\n.......\n";
@@ -78,7 +42,7 @@ fn length(runs: &str, scene: &str, planner: &str) -> f64 {
 #[test]
 fn the_grid_search_finds_the_lengths_of_the_scenario_and_the_optimum_is_no_longer() {
     let place = furnished("lengths");
-    let (code, _, notes) = place.run(&["check", "maps.toml"]);
+    let (code, _, notes) = place.told(&["check", "maps.toml"]);
     assert_eq!(code, 0);
     let expected = "note: shortest octile paths by our search, all as in t.map.scen: t-p0000 6.00000000, \
                     t-p0001 1.00000000, t-p0002 6.41421356, t-p0003 4.00000000\n";
@@ -101,7 +65,7 @@ fn the_grid_search_finds_the_lengths_of_the_scenario_and_the_optimum_is_no_longe
 fn the_map_of_the_repository_agrees_with_its_scenario() {
     let place = Place::new("hall");
     let comparison = repository().join("configs/comparisons/hall.toml");
-    let (code, _, notes) = place.run(&["check", comparison.to_str().unwrap()]);
+    let (code, _, notes) = place.told(&["check", comparison.to_str().unwrap()]);
     assert!(code == 0 && notes.contains("all as in") && notes.matches("hall-p").count() == 6, "{notes}");
 }
 
@@ -110,7 +74,7 @@ fn problems_are_chosen_by_bucket_number_and_count() {
     let place = furnished("choice");
     let chosen = |keys: &str| {
         place.write("maps.toml", &COMPARISON.replace("\" }", &format!("\", {keys} }}")));
-        let (code, _, errors) = place.run(&["check", "maps.toml"]);
+        let (code, _, errors) = place.told(&["check", "maps.toml"]);
         let numbers = errors.split("t-p").skip(1).map(|rest| rest[..4].parse().unwrap());
         (code, numbers.collect::<Vec<u32>>(), errors)
     };
@@ -135,16 +99,40 @@ fn problems_are_chosen_by_bucket_number_and_count() {
 fn scenarios_that_disagree_with_the_map_are_named() {
     let place = furnished("disagree");
     place.write("t.map.scen", &SCENARIO.replace("6.41421356", "5.24264069"));
-    let (code, _, notes) = place.run(&["check", "maps.toml"]);
+    let (code, _, notes) = place.told(&["check", "maps.toml"]);
     assert_eq!(code, 0);
     let expected = "t-p0002: the shortest octile path is 6.41421356 by our search and 5.24264069 by t.map.scen:4;";
     assert!(notes.contains(expected) && notes.contains("not all as in"), "{notes}");
     place.write("t.map.scen", &SCENARIO.replace("\t6\t0\t", "\t1\t1\t"));
-    let (code, _, errors) = place.run(&["check", "maps.toml"]);
+    let (code, _, errors) = place.told(&["check", "maps.toml"]);
     assert!(code == 2 && errors.contains("t.map.scen:2: problem 0: goal (1, 1) is on '@'"), "{errors}");
     fs::remove_file(place.0.join("t.map")).unwrap();
-    let (code, _, errors) = place.run(&["check", "maps.toml"]);
+    let (code, _, errors) = place.told(&["check", "maps.toml"]);
     assert!(code == 2 && errors.contains("expected the map beside the scenario"), "{errors}");
+}
+
+#[test]
+fn problems_that_end_where_they_start_are_left_out() {
+    let place = furnished("trivial");
+    place
+        .write("t.map.scen", &(SCENARIO.to_owned() + "0\tt.map\t7\t5\t3\t2\t3\t2\t0\n9\tt.map\t7\t5\t0\t0\t0\t0\t0\n"));
+    let check = |keys: &str| {
+        place.write("maps.toml", &COMPARISON.replace("\" }", &format!("\"{keys} }}")));
+        let (code, _, errors) = place.told(&["check", "maps.toml"]);
+        (code, errors)
+    };
+    let (code, notes) = check("");
+    assert!(code == 0 && notes.contains("left out of t.map.scen, their start is their goal: problems 4, 5"), "{notes}");
+    assert_eq!(notes.matches("t-p").count(), 4, "{notes}");
+    let (code, notes) = check(", count = 2");
+    assert!(code == 0 && notes.contains("t-p0000 6.00000000, t-p0003 4.00000000"), "{notes}");
+    for (keys, expected) in [
+        (", problems = [0, 4]", "t.map.scen:6: problem 4: start and goal are the same point (3.5, 2.5)"),
+        (", buckets = [9]", "0 problems, besides 1 whose start is their goal; expected 1 to 10000"),
+    ] {
+        let (code, errors) = check(keys);
+        assert!(code == 2 && errors.contains(expected), "{keys}: {errors}");
+    }
 }
 
 #[test]
@@ -167,13 +155,13 @@ fn the_fixed_comparison_still_gives_the_committed_counts() {
     let baseline = repository().join("tests/baseline");
     let [comparison, runs] = ["small.toml", "runs.csv"].map(|file| baseline.join(file).display().to_string());
     place.ok(&["run", &comparison, "--out", "out", "--quiet"]);
-    let (code, printed, errors) = place.run(&["compare", &runs, "out", "--fail-on", "changed"]);
+    let (code, printed, errors) = place.told(&["compare", &runs, "out", "--fail-on", "changed"]);
     // A change that is meant: see docs/interchange.md for how to renew the baseline.
     assert_eq!(code, 0, "{printed}{errors}");
     assert!(printed.contains("are the same in every count."), "{printed}");
     let worse = fs::read_to_string(&runs).unwrap().replacen("solved,true", "solved,false", 1);
     place.write("other.csv", &worse);
-    assert_eq!(place.run(&["compare", "other.csv", "out", "--fail-on", "changed"]).0, 1, "the gate closes");
-    assert_eq!(place.run(&["compare", "other.csv", "out"]).0, 0, "only when asked");
-    assert_eq!(place.run(&["compare", "other.csv", "nowhere"]).0, 2);
+    assert_eq!(place.told(&["compare", "other.csv", "out", "--fail-on", "changed"]).0, 1, "the gate closes");
+    assert_eq!(place.told(&["compare", "other.csv", "out"]).0, 0, "only when asked");
+    assert_eq!(place.told(&["compare", "other.csv", "nowhere"]).0, 2);
 }

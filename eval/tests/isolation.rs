@@ -2,48 +2,32 @@
 
 #![cfg(unix)]
 
+mod common;
+
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::PathBuf;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
+use common::{Place, SCENE};
 use eval::results::{RunRecord, RunStatus};
 use eval::store::Store;
-
-/// A folder of its own for each test, with a scene and planners, gone afterwards.
-struct Place(PathBuf);
-
-const SCENE: &str = "name = \"one\"\nstart = [0.0, 0.0]\ngoal = [10.0, 0.0]\n
-[[obstacle]]\ndisc = { centre = [5.0, 0.5], radius = 1.0 }\n";
 
 /// Reads a request and keeps its id, as every planner below begins.
 const READ: &str = "read -r line || exit 0; id=${line#*\\\"id\\\":}; id=${id%%,*}\n";
 
+/// A place with `one.toml`.
+fn furnished(name: &str) -> Place {
+    let place = Place::new(name);
+    place.write("one.toml", SCENE);
+    place
+}
+
 impl Place {
-    fn new(name: &str) -> Self {
-        let folder = std::env::temp_dir().join(format!("touchline-isolation-{}-{name}", std::process::id()));
-        let _ = fs::remove_dir_all(&folder);
-        fs::create_dir_all(&folder).unwrap();
-        let place = Self(folder);
-        place.write("one.toml", SCENE);
-        place
-    }
-
-    fn write(&self, name: &str, text: &str) {
-        fs::write(self.0.join(name), text).unwrap();
-    }
-
     fn command(&self, args: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_touchline"));
         command.args(args).current_dir(&self.0);
         command
-    }
-
-    fn ok(&self, args: &[&str]) -> String {
-        let Output { status, stdout, stderr } = self.command(args).output().unwrap();
-        assert!(status.success(), "{args:?}: {}", String::from_utf8_lossy(&stderr));
-        String::from_utf8(stdout).unwrap()
     }
 
     /// A comparison of three planners of the catalogue and the external `planners` in the scene: (label, shell
@@ -69,12 +53,6 @@ impl Place {
             runs.entry(run.planner.clone()).or_default().push(run);
         }
         runs
-    }
-}
-
-impl Drop for Place {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
     }
 }
 
@@ -187,7 +165,7 @@ const BAD: &[Bad] = {
             "elsewhere",
             r#"echo "{\"id\":$id,\"status\":\"solved\",\"path\":[[0,0],[5,3],[9,0]]}""#,
             "",
-            Solved,
+            Error,
             "the path ends at (9, 0), not at the goal",
         ),
     ]
@@ -195,7 +173,7 @@ const BAD: &[Bad] = {
 
 #[test]
 fn every_way_to_fail_ends_that_run_alone() {
-    let place = Place::new("bad");
+    let place = furnished("bad");
     let mut planners = vec![("good", GOOD, "")];
     place.comparison("clean", &planners);
     let bad: Vec<String> = BAD
@@ -251,7 +229,7 @@ fn every_way_to_fail_ends_that_run_alone() {
 #[test]
 #[cfg(target_os = "linux")]
 fn memory_is_limited_while_planning_and_after() {
-    let place = Place::new("memory");
+    let place = furnished("memory");
     // A mebibyte more in each turn, so that nobody's machine suffers if the limit does not work.
     let megabyte = "m=0123456789abcdef; for i in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16; do m=$m$m; done";
     let eat = |turns: u32| format!("{megabyte}; x=; i=0; while [ $i -lt {turns} ]; do x=$x$m; i=$((i+1)); done");
@@ -277,7 +255,7 @@ fn memory_is_limited_while_planning_and_after() {
 
 #[test]
 fn a_process_that_fails_once_is_started_again() {
-    let place = Place::new("again");
+    let place = furnished("again");
     // Crashes whenever a file says so, which it removes first.
     let script = format!("if [ -f crash ]; then rm crash; kill -KILL $$; fi; echo go >> asked; {GOOD}");
     place.comparison("again", &[("moody", &script, "")]);
@@ -292,7 +270,7 @@ fn a_process_that_fails_once_is_started_again() {
 
 #[test]
 fn a_slow_start_is_allowed_for() {
-    let place = Place::new("slow");
+    let place = furnished("slow");
     let script = format!("[ -n \"$warm\" ] || sleep 1; warm=1; {GOOD}");
     place.comparison("slow", &[("slow", &script, "hard_limit_ms = 500")]);
     place.ok(&["run", "slow.toml", "--out", "out", "--quiet"]);
@@ -302,7 +280,7 @@ fn a_slow_start_is_allowed_for() {
 
 #[test]
 fn isolation_changes_nothing_but_times() {
-    let place = Place::new("same");
+    let place = furnished("same");
     place.write(
         "same.toml",
         "name = \"same\"\nrepeats = 3\nbudget = { evaluations = 600 }
@@ -326,7 +304,7 @@ fn isolation_changes_nothing_but_times() {
 #[test]
 #[cfg(target_os = "linux")]
 fn a_killed_bench_leaves_no_process() {
-    let place = Place::new("killed");
+    let place = furnished("killed");
     // Of the three processes only the last is looked for: neither bench nor tether has started it.
     place.comparison("killed", &[("hangs", "sleep 1000 & echo $! > hang.pid; wait", "")]);
     let mut bench = place
@@ -353,7 +331,7 @@ fn run_with_files(place: &Place, files: u32, more: &str) -> Output {
 
 #[test]
 fn processes_are_few_and_none_is_missed() {
-    let place = Place::new("many");
+    let place = furnished("many");
     let labels: Vec<String> = (0..40).map(|n| format!("p{n}")).collect();
     let planners: Vec<_> = labels.iter().map(|label| (label.as_str(), GOOD, "")).collect();
     place.comparison("many", &planners);
@@ -367,7 +345,7 @@ fn processes_are_few_and_none_is_missed() {
 
 #[test]
 fn a_bench_without_means_is_no_result() {
-    let place = Place::new("poor");
+    let place = furnished("poor");
     let labels: Vec<String> = (0..10).map(|n| format!("p{n}")).collect();
     let planners: Vec<_> = labels.iter().map(|label| (label.as_str(), GOOD, "")).collect();
     place.comparison("many", &planners);
@@ -385,7 +363,7 @@ fn a_bench_without_means_is_no_result() {
 
 #[test]
 fn plan_tries_a_planner_by_hand() {
-    let place = Place::new("plan");
+    let place = furnished("plan");
     place.comparison("plan", &[("good", GOOD, "")]);
     let plan = ["plan", "one.toml", "--planner", "external", "--set", "command=[\"sh\", \"good.sh\"]"];
     let said = place.ok(&[&plan[..], &["--json"]].concat());
@@ -399,7 +377,7 @@ fn plan_tries_a_planner_by_hand() {
 #[test]
 fn a_worker_answers_until_its_input_ends() {
     use std::io::Write;
-    let place = Place::new("worker");
+    let place = furnished("worker");
     let mut worker = place.command(&["worker"]).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
     let scene = r#"{"name":"one","start":[0,0],"goal":[10,0]}"#;
     let request = |kind: &str| format!(r#"{{"protocol":1,"id":5,"kind":"{kind}","scene":{scene},"seed":7}}"#);

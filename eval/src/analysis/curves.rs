@@ -2,8 +2,9 @@
 //!
 //! How good a run was is the judge's word on its final path: one that is not valid was never any good. When it
 //! became so good is read off the planner's own progress, where its cost is a length (of no valid run the final
-//! cost differs from the length by more than 10⁻⁵ of it); otherwise, and at the latest, it did when the run ended.
-//! Runs that did not live to tell their evaluations are charged as in [`super::spent`].
+//! cost, or the last of its progress where a run tells none, differs from the length by more than 10⁻⁵ of it);
+//! otherwise, and at the latest, it did when the run ended. Runs that did not live to tell their evaluations are
+//! charged as in [`super::spent`].
 
 use super::grid::Grid;
 use super::spent::Evaluations;
@@ -24,10 +25,10 @@ pub enum Effort {
 
 /// A run's gap from some effort on.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Step {
-    evaluations: f64,
-    time_us: f64,
-    /// length/optimum − 1.
+pub(crate) struct Step {
+    pub evaluations: f64,
+    pub time_us: f64,
+    /// length/optimum − 1; the length itself where no optimum is known.
     pub gap: f64,
 }
 
@@ -42,7 +43,7 @@ impl Step {
 }
 
 /// One run: its course and what it spent in all.
-pub(super) struct Course {
+pub(crate) struct Course {
     /// Ever smaller gaps; none for a run without a valid path.
     pub steps: Vec<Step>,
     /// What was spent at the run's end.
@@ -72,8 +73,8 @@ impl Curves {
             counted.push(grid.runs_in(planner, None).all(|run| spent.spent(run).is_some()));
             for (s, scene) in grid.scenes.iter().enumerate() {
                 let runs = if scene.optimum.length.is_some() { grid.runs(planner, s) } else { &[] };
-                let optimum = scene.optimum.length.unwrap_or(f64::NAN);
-                cells.push(runs.iter().map(|run| course(run, spent.spent(run), optimum, lengths)).collect());
+                let course = |run: &&RunRecord| Course::new(run, spent.spent(run), scene.optimum.length, lengths);
+                cells.push(runs.iter().map(course).collect());
             }
         }
         let with_optimum = (0..scenes).filter(|s| grid.scenes[*s].optimum.length.is_some()).collect();
@@ -104,29 +105,36 @@ impl Curves {
 
 /// Whether nothing speaks against the planner's cost being the path's length.
 pub(crate) fn cost_is_length(run: &RunRecord) -> bool {
-    match (run.valid, run.cost, run.length) {
+    // Where the final cost is left out, the last improvement is of the final path.
+    let cost = run.cost.or_else(|| run.progress.last().map(|p| p.cost));
+    match (run.valid, cost, run.length) {
         (true, Some(cost), Some(length)) => (cost - length).abs() <= OTHER * length.abs(),
         _ => true,
     }
 }
 
-fn course(run: &RunRecord, spent: Option<f64>, optimum: f64, lengths: bool) -> Course {
-    let end = Step { evaluations: spent.unwrap_or(run.evaluations as f64), time_us: run.time_us, gap: f64::INFINITY };
-    let Some(length) = run.length.filter(|_| run.valid) else { return Course { steps: Vec::new(), end } };
-    let gap = (length / optimum - 1.0).max(0.0);
-    let mut steps: Vec<Step> = Vec::new();
-    for p in run.progress.iter().filter(|p| lengths && p.cost.is_finite()) {
-        let step = Step {
-            evaluations: end.evaluations.min(p.evaluations as f64),
-            time_us: end.time_us.min(p.time_us),
-            gap: gap.max(p.cost / optimum - 1.0),
-        };
-        if steps.last().is_none_or(|last| step.gap < last.gap) {
-            steps.push(step);
+impl Course {
+    /// Of a run in a scene of that optimum, charged `spent` evaluations, whose planner's costs are `lengths` or are not.
+    pub fn new(run: &RunRecord, spent: Option<f64>, optimum: Option<f64>, lengths: bool) -> Self {
+        let evaluations = spent.unwrap_or(run.evaluations as f64);
+        let end = Step { evaluations, time_us: run.time_us, gap: f64::INFINITY };
+        let Some(length) = run.length.filter(|_| run.valid) else { return Self { steps: Vec::new(), end } };
+        let value = |length: f64| optimum.map_or(length, |optimum| (length / optimum - 1.0).max(0.0));
+        let gap = value(length);
+        let mut steps: Vec<Step> = Vec::new();
+        for p in run.progress.iter().filter(|p| lengths && p.cost.is_finite()) {
+            let step = Step {
+                evaluations: end.evaluations.min(p.evaluations as f64),
+                time_us: end.time_us.min(p.time_us),
+                gap: gap.max(value(p.cost)),
+            };
+            if steps.last().is_none_or(|last| step.gap < last.gap) {
+                steps.push(step);
+            }
         }
+        if steps.last().is_none_or(|last| gap < last.gap) {
+            steps.push(Step { gap, ..end });
+        }
+        Self { steps, end }
     }
-    if steps.last().is_none_or(|last| gap < last.gap) {
-        steps.push(Step { gap, ..end });
-    }
-    Course { steps, end }
 }

@@ -19,7 +19,7 @@ pub mod targets;
 mod testing;
 
 pub use blocks::{Measure, Over, quality};
-pub(crate) use curves::cost_is_length;
+pub(crate) use curves::{Course, Step, cost_is_length};
 pub use curves::{Curves, Effort};
 pub use grid::Grid;
 pub use summary::{Summary, counted_length, summarise};

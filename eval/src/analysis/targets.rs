@@ -178,8 +178,17 @@ mod tests {
     fn costs_that_are_no_lengths_say_nothing_of_when() {
         let mut other = four();
         other.runs[1].cost = Some(10.5 * (1.0 + 2e-5));
-        let curves = Curves::new(&Grid::new(&other));
-        assert_eq!(ert(&curves, Some(0), &[1.0], Effort::Evaluations)[0][0].value, 200.0);
+        let first_hit = |results: &Results| {
+            let curves = Curves::new(&Grid::new(results));
+            ert(&curves, Some(0), &[1.0], Effort::Evaluations)[0][0].value
+        };
+        assert_eq!(first_hit(&other), 200.0);
+        // A run that tells no cost is judged by its progress, whose last cost is that of its path.
+        let mut silent = four();
+        silent.runs[0].cost = None;
+        assert_eq!(first_hit(&silent), 155.0, "the progress ends at the length");
+        silent.runs[0].progress[3].cost = 10.6;
+        assert_eq!(first_hit(&silent), 200.0, "it ends elsewhere");
     }
 
     #[test]

@@ -36,6 +36,9 @@ fn print(changes: &Changes) {
     if !rows.is_empty() {
         say(table(&rows));
         say("A12: how often a run of NEW is worse than one of OLD. Failures count as ∞. p after Holm's correction.");
+        if rows.iter().any(|c| c.scene.is_none()) {
+            say("In \"all\", medians, p, A12 and time are of the scenes' medians: a scene counts as one.");
+        }
     }
     let scenes: Vec<&Change> = changes.changes.iter().filter(|c| c.scene.is_some()).collect();
     let same = scenes.iter().filter(|c| c.quality == Quality::Same).count();
@@ -81,7 +84,7 @@ fn quality(verdict: Quality) -> &'static str {
         Quality::Better => "better",
         Quality::Worse => "WORSE",
         Quality::Unclear => "within noise",
-        Quality::TooFew => "too few runs to tell",
+        Quality::TooFew => "too few to tell",
     }
 }
 
@@ -90,7 +93,7 @@ fn speed(verdict: Speed) -> &'static str {
         Speed::Unchanged => "unchanged",
         Speed::Faster => "faster",
         Speed::Slower => "SLOWER",
-        Speed::TooFew => "too few runs to tell",
+        Speed::TooFew => "too few to tell",
         Speed::Untimed => "no times",
     }
 }

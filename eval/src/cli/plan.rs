@@ -15,6 +15,7 @@ use crate::campaign::Arena;
 use crate::config::{self, Maker, PlannerEntry};
 use crate::error::Error;
 use crate::format;
+use crate::json;
 use crate::report::svg::{PathLayer, scene_svg};
 use crate::results::{RunRecord, SceneResult};
 use crate::runner;
@@ -99,30 +100,14 @@ fn trace(path: &Path, entry: &PlannerEntry, arena: &Arena, seed: u64) -> Result<
 }
 
 fn as_json(entry: &PlannerEntry, scene: &SceneResult, r: &RunRecord) -> String {
-    let value = json!({
-        "scene": r.scene,
-        "planner": entry.kind,
-        "settings": entry.settings,
-        "budget": entry.budget,
-        "seed": r.seed,
-        "status": r.status,
-        "valid": r.valid,
-        "length": r.length,
-        "optimum": scene.optimum.length,
-        "gap": r.gap,
-        "clearance_min": r.clearance_min,
-        "turning": r.turning,
-        "iterations": r.iterations,
-        "evaluations": r.evaluations,
-        "collision_checks": r.collision_checks,
-        "time_us": r.time_us,
-        "cpu_us": r.cpu_us,
-        "error": r.error,
-        "cost": r.cost,
-        "terms": r.terms.iter().cloned().collect::<BTreeMap<_, _>>(),
-        "path": r.path.iter().map(|p| [p.x, p.y]).collect::<Vec<_>>(),
-        "progress": r.progress,
-    });
+    let mut value = json::run(r);
+    value.extend([
+        ("planner".to_owned(), json!(entry.kind)),
+        ("settings".to_owned(), json!(entry.settings)),
+        ("budget".to_owned(), json!(entry.budget)),
+        ("optimum".to_owned(), json!(scene.optimum.length)),
+        ("terms".to_owned(), json!(r.terms.iter().cloned().collect::<BTreeMap<_, _>>())),
+    ]);
     serde_json::to_string_pretty(&value).expect("plain data with string keys")
 }
 

@@ -5,7 +5,8 @@
 //! (the gap, or the length where a gap is missing; +∞ for a run without a valid path) is compared by
 //! Wilcoxon's signed-rank test, corrected by Holm over everything that differs, with A₁₂ as effect size; and
 //! where neither side varies over its repeats, directly. Times are compared by the ratio of medians with a
-//! bootstrap interval: they changed when the interval leaves 1 out and the ratio is at least 10 %.
+//! bootstrap interval: they changed when the interval leaves 1 out and the ratio is at least 10 %. Over all scenes
+//! together a pair is a scene with its medians over the repeats, as in the report: more repeats are no more scenes.
 
 mod side;
 
@@ -26,7 +27,7 @@ pub use side::{Run, Side};
 const ALPHA: f64 = 0.05;
 /// A time that changed by less is nobody's concern, and machines drift by as much.
 const WORTH_SAYING: f64 = 1.10;
-/// With fewer pairs neither the test nor the interval can tell anything: 2/2⁵ > 0.05.
+/// With fewer pairs, of runs in one scene or of scenes, neither the test nor the interval can tell anything: 2/2⁵ > 0.05.
 const FEWEST: usize = 6;
 /// Resamples of the bootstrap; a stated seed, so that the same files give the same answer.
 const RESAMPLES: (usize, u64) = (2000, 1);
@@ -76,7 +77,7 @@ pub struct Change {
     pub differing: usize,
     /// Runs with a valid path, before and after.
     pub valid: [usize; 2],
-    /// Median gap (or length), before and after; none where infinite.
+    /// Median gap (or length), before and after, over all scenes of their medians; none where infinite.
     pub median: [Option<f64>; 2],
     /// The verdict on the paths.
     pub quality: Quality,
@@ -84,7 +85,7 @@ pub struct Change {
     pub p: Option<f64>,
     /// How often a run of NEW is worse than one of OLD, ties half.
     pub a12: f64,
-    /// Median time of NEW over that of OLD; none without times.
+    /// Median time of NEW over that of OLD, over all scenes of their medians; none without times.
     pub time_ratio: Option<f64>,
     /// Its 95 % interval.
     pub time_interval: Option<[f64; 2]>,
@@ -151,10 +152,11 @@ pub fn compare(old: &Side, new: &Side) -> Result<Changes, Error> {
     if pairs.is_empty() {
         return Err(refuse(format!("no run in common; one has {}, the other {}", old.describe(), new.describe())));
     }
-    let mut groups: Vec<Group<'_>> =
-        pairs.iter().map(|((scene, planner), runs)| (*planner, Some(*scene), runs.clone())).collect();
+    let mut groups: Vec<Group<'_, '_>> =
+        pairs.iter().map(|((scene, planner), runs)| (*planner, Some(*scene), vec![&runs[..]])).collect();
     groups.extend(over_scenes(&pairs));
-    let mut changes: Vec<Change> = groups.iter().map(|(planner, scene, runs)| change(planner, *scene, runs)).collect();
+    let mut changes: Vec<Change> =
+        groups.iter().map(|(planner, scene, cells)| change(planner, *scene, cells)).collect();
     let tested: Vec<usize> = (0..changes.len()).filter(|i| changes[*i].p.is_some()).collect();
     let adjusted = holm(&tested.iter().filter_map(|i| changes[*i].p).collect::<Vec<f64>>());
     for (i, p) in tested.into_iter().zip(adjusted) {
@@ -167,29 +169,33 @@ pub fn compare(old: &Side, new: &Side) -> Result<Changes, Error> {
     Ok(Changes { changes, missing: absent(old, new), added: absent(new, old), notes: notes(old, new) })
 }
 
-/// A planner, a scene or none for all of them, and the pairs of runs.
-type Group<'a> = (&'a str, Option<&'a str>, Vec<[&'a Run; 2]>);
+/// A planner, a scene or none for all of them, and scene by scene the pairs of runs.
+type Group<'a, 'p> = (&'a str, Option<&'a str>, Vec<&'p [[&'a Run; 2]]>);
 
 /// Each planner over all its test scenes, where they are several.
-fn over_scenes<'a>(pairs: &BTreeMap<(&'a str, &'a str), Vec<[&'a Run; 2]>>) -> Vec<Group<'a>> {
+fn over_scenes<'a, 'p>(pairs: &'p BTreeMap<(&'a str, &'a str), Vec<[&'a Run; 2]>>) -> Vec<Group<'a, 'p>> {
     let planners: BTreeSet<&str> = pairs.keys().map(|(_, planner)| *planner).collect();
     let whole = |planner: &'a str| {
         let counted = |runs: &[[&Run; 2]]| runs.iter().flatten().all(|run| !run.tuning());
-        let scenes: Vec<_> = pairs.iter().filter(|((_, p), runs)| *p == planner && counted(runs)).collect();
-        let runs = scenes.iter().flat_map(|(_, runs)| runs.iter().copied()).collect();
-        (scenes.len() > 1).then_some((planner, None, runs))
+        let of_planner = pairs.iter().filter(|((_, p), runs)| *p == planner && counted(runs));
+        let scenes: Vec<_> = of_planner.map(|(_, runs)| &runs[..]).collect();
+        (scenes.len() > 1).then_some((planner, None, scenes))
     };
     planners.into_iter().filter_map(whole).collect()
 }
 
-fn change(planner: &str, scene: Option<&str>, pairs: &[[&Run; 2]]) -> Change {
+/// What changed in `cells`, the pairs of one scene or, for no scene, of every scene.
+fn change(planner: &str, scene: Option<&str>, cells: &[&[[&Run; 2]]]) -> Change {
+    let pairs: Vec<[&Run; 2]> = cells.concat();
     // Lengths and gaps must not meet in one column.
     let gaps = pairs.iter().flatten().all(|run| !run.valid || run.gap.is_some());
-    let column = |side: usize| pairs.iter().map(|pair| pair[side].quality(gaps)).collect::<Vec<f64>>();
-    let (old, new) = (column(0), column(1));
+    let qualities = |side: usize| column(cells, scene, |pair| pair[side].quality(gaps));
+    let (old, new) = (qualities(0), qualities(1));
     let differing = pairs.iter().filter(|[a, b]| a.differs(b)).count();
     let (quality, p) = if differing == 0 { (Quality::Same, None) } else { verdict(&old, &new, scene.is_some()) };
-    let (time_ratio, time_interval, speed) = times(pairs);
+    let timed = pairs.iter().flatten().all(|run| run.time_us.is_some());
+    let spent = |side: usize| timed.then(|| column(cells, scene, |pair| pair[side].time_us.unwrap_or(f64::NAN)));
+    let (time_ratio, time_interval, speed) = spent(0).zip(spent(1)).map_or((None, None, Speed::Untimed), times);
     Change {
         planner: planner.to_owned(),
         scene: scene.map(str::to_owned),
@@ -204,6 +210,12 @@ fn change(planner: &str, scene: Option<&str>, pairs: &[[&Run; 2]]) -> Change {
         time_interval,
         speed,
     }
+}
+
+/// What is compared: a value of each run in one scene, or of each scene the median over its runs.
+fn column(cells: &[&[[&Run; 2]]], scene: Option<&str>, value: impl Fn(&[&Run; 2]) -> f64) -> Vec<f64> {
+    let values = cells.iter().map(|pairs| pairs.iter().map(&value).collect::<Vec<f64>>());
+    if scene.is_some() { values.flatten().collect() } else { values.filter_map(|values| median(&values)).collect() }
 }
 
 /// What became of paths of these qualities, and the test's p if it took a test.
@@ -228,14 +240,13 @@ fn verdict(old: &[f64], new: &[f64], one_scene: bool) -> (Quality, Option<f64>) 
     (if test.positive > test.negative { Quality::Worse } else { Quality::Better }, Some(test.p))
 }
 
-fn times(pairs: &[[&Run; 2]]) -> (Option<f64>, Option<[f64; 2]>, Speed) {
-    let column = |side: usize| pairs.iter().map(|pair| pair[side].time_us).collect::<Option<Vec<f64>>>();
-    let (Some(old), Some(new)) = (column(0), column(1)) else { return (None, None, Speed::Untimed) };
+/// The ratio of the medians of paired times, its interval and what to make of it.
+fn times((old, new): (Vec<f64>, Vec<f64>)) -> (Option<f64>, Option<[f64; 2]>, Speed) {
     let ratio = median(&new).zip(median(&old)).map(|(new, old)| new / old).filter(|ratio| ratio.is_finite());
-    if pairs.len() < FEWEST {
+    if old.len() < FEWEST {
         return (ratio, None, Speed::TooFew);
     }
-    let resamples = Resamples::new(pairs.len(), RESAMPLES.0, RESAMPLES.1);
+    let resamples = Resamples::new(old.len(), RESAMPLES.0, RESAMPLES.1);
     let interval = ratio_interval(&resamples.medians(&new), &resamples.medians(&old));
     let speed = match (ratio, interval) {
         (Some(ratio), Some([low, _])) if ratio >= WORTH_SAYING && low > 1.0 => Speed::Slower,

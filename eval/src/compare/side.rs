@@ -105,7 +105,10 @@ impl Side {
                 |column: &str, expected: &str| at(format!("{column} is {:?}; expected {expected}", cell(column)));
             let number = |column: &'static str| match cell(column) {
                 "" => Ok(None),
-                text => text.parse().map(Some).map_err(|_| wrong(column, "a number")),
+                text => match text.parse() {
+                    Ok(number) if f64::is_finite(number) => Ok(Some(number)),
+                    _ => Err(wrong(column, "a finite number, or nothing where there is none")),
+                },
             };
             let run = Run {
                 seed: cell("seed").parse().map_err(|_| wrong("seed", "a whole number"))?,

@@ -68,6 +68,33 @@ fn planners_that_do_not_vary_need_no_test() {
 }
 
 #[test]
+fn over_all_scenes_a_scene_is_one_observation() {
+    // A planner that does not vary: in each scene the same gap and time ten times.
+    let side = |gaps: &[f64], time: f64| {
+        let mut whole = side("p", &[], |_| time);
+        for (k, gap) in gaps.iter().enumerate() {
+            let runs = side("p", &[*gap; 10], |_| time * (k + 1) as f64).runs;
+            whole.runs.extend(runs.into_iter().map(|((_, p, r), run)| ((format!("s{k}"), p, r), run)));
+        }
+        whole
+    };
+    let all = |old: &[f64], new: &[f64]| {
+        compare(&side(old, 1.0), &side(new, 2.0)).unwrap().changes.into_iter().find(|c| c.scene.is_none()).unwrap()
+    };
+    // 40 pairs of runs, 30 of them better; of four scenes nothing can be told.
+    let four = all(&[0.1, 0.2, 0.3, 0.9], &[0.05, 0.15, 0.2, 0.9]);
+    assert_eq!((four.pairs, four.differing, four.quality, four.p), (40, 30, Quality::TooFew, None));
+    assert_eq!((four.median, four.speed), ([Some(0.25), Some(0.175)], Speed::TooFew));
+    // Seven scenes, all better: 2/2⁷.
+    let ramp: Vec<f64> = (1..8).map(|k| 0.1 * f64::from(k)).collect();
+    let half: Vec<f64> = ramp.iter().map(|gap| 0.5 * gap).collect();
+    let seven = all(&ramp, &half);
+    // The seven scenes need no test, so that Holm's correction is of this one alone.
+    assert_eq!((seven.quality, seven.p), (Quality::Better, Some(2.0 / 128.0)));
+    assert_eq!((seven.time_ratio, seven.speed), (Some(2.0), Speed::Slower));
+}
+
+#[test]
 fn times_change_beyond_noise_only() {
     let gaps = ramp(20, 0.0);
     let at = |factor: f64| side("p", &gaps, move |i| factor * (100.0 + (i * 7 % 20) as f64));
@@ -122,6 +149,11 @@ fn tables_that_are_none_are_named_with_their_line() {
         error(&(head.to_owned() + row + "s,p,1,7,yes,1.5\n"))
             .contains("old.csv: line 3: valid is \"yes\"; expected true")
     );
+    for number in ["NaN", "inf", "-inf", "1e999"] {
+        let text = format!("{head}{row}s,p,1,7,true,{number}\n");
+        let expected = format!("old.csv: line 3: length is {number:?}; expected a finite number");
+        assert!(error(&text).contains(&expected), "{}", error(&text));
+    }
     assert!(error(&(head.to_owned() + row + row)).contains("line 3: a second run 0 of p in s"));
     assert!(error(&(head.to_owned() + "s,p\n")).contains("old.csv: CSV error"));
 }

@@ -49,7 +49,7 @@ pub(super) fn read(
     let (file, text) =
         files.read(path).map_err(|e| source.error_at(at.clone(), format!("{e}; expected a scenario file")))?;
     let problems = movingai::problems(&file, &text).map_err(|e| source.error_at(at.clone(), e.to_string()))?;
-    let chosen = choose(&problems, &asked).map_err(|message| source.error_at(whole, message))?;
+    let Choice { chosen, trivial } = choose(&problems, &asked).map_err(|message| source.error_at(whole, message))?;
     let mut maps = Maps { source, at: &asked.movingai, instead: asked.map.as_ref(), files, read: Vec::new() };
     let (mut scenes, mut lengths, mut notes) = (Vec::new(), Vec::new(), Vec::new());
     for number in chosen {
@@ -78,12 +78,24 @@ pub(super) fn read(
     }
     let agreement = if notes.is_empty() { "all as" } else { "not all as" };
     notes.insert(0, format!("shortest octile paths by our search, {agreement} in {file}: {}", lengths.join(", ")));
+    if !trivial.is_empty() {
+        let numbers: Vec<String> = trivial.iter().map(usize::to_string).collect();
+        notes.push(format!("left out of {file}, their start is their goal: problems {}", numbers.join(", ")));
+    }
     Ok((scenes, notes))
 }
 
-/// Numbers of the problems asked for, at least one, or what is wrong with the choice.
-fn choose(problems: &[Problem], asked: &MovingAi) -> Result<Vec<usize>, String> {
-    let chosen: Vec<usize> = match (&asked.problems, &asked.buckets) {
+/// Numbers of problems.
+struct Choice {
+    /// Those asked for, at least one.
+    chosen: Vec<usize>,
+    /// Those left out because they end where they start. Nobody means these who asks for a whole bucket.
+    trivial: Vec<usize>,
+}
+
+/// The choice that is asked for, or what is wrong with it.
+fn choose(problems: &[Problem], asked: &MovingAi) -> Result<Choice, String> {
+    let all: Vec<usize> = match (&asked.problems, &asked.buckets) {
         (Some(_), Some(_)) => return Err("both problems and buckets; expected at most one of them".to_owned()),
         (Some(numbers), None) => {
             if let Some(number) = numbers.iter().find(|number| **number >= problems.len()) {
@@ -100,13 +112,19 @@ fn choose(problems: &[Problem], asked: &MovingAi) -> Result<Vec<usize>, String> 
         }
         (None, None) => (0..problems.len()).collect(),
     };
+    let kept = |i: &usize| asked.problems.is_some() || problems[*i].start != problems[*i].goal;
+    let (chosen, trivial): (Vec<usize>, Vec<usize>) = all.into_iter().partition(kept);
     let count = asked.count.as_ref().map_or(chosen.len(), |count| (*count.get_ref()).min(chosen.len()));
     if count == 0 || count > MOST {
-        return Err(format!("{count} problems; expected 1 to {MOST}"));
+        let left_out = match trivial.len() {
+            0 => String::new(),
+            n => format!(", besides {n} whose start is their goal"),
+        };
+        return Err(format!("{count} problems{left_out}; expected 1 to {MOST}"));
     }
     // The first and the last are among them, unless only one is wanted.
     let spread = |k: usize| chosen[if count == 1 { 0 } else { k * (chosen.len() - 1) / (count - 1) }];
-    Ok((0..count).map(spread).collect())
+    Ok(Choice { chosen: (0..count).map(spread).collect(), trivial })
 }
 
 /// The maps read so far, each in the sizes that were asked for.

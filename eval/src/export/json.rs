@@ -1,9 +1,9 @@
 //! `paths.jsonl`, `manifest.json`, and everything in one: `results.json`.
 
-use env_model::Point;
 use serde::Serialize;
-use serde_json::{Value, json};
+use serde_json::json;
 
+use crate::json;
 use crate::results::{Manifest, Optimum, PlannerInfo, Results, RunRecord, SceneResult};
 use crate::seeds;
 
@@ -17,7 +17,7 @@ pub fn paths_jsonl(results: &Results) -> String {
         path: Vec<[f64; 2]>,
     }
     let line = |r: &RunRecord| {
-        let path = r.path.iter().map(|p| [p.x, p.y]).collect();
+        let path = json::points(&r.path);
         let line = Line { scene: &r.scene, planner: &r.planner, repeat: r.repeat, path };
         serde_json::to_string(&line).expect("plain data") + "\n"
     };
@@ -67,42 +67,26 @@ pub fn results_json(results: &Results) -> String {
             "group": p.group,
             "varied": p.varied,
             "budget": p.budget,
-            "settings": plain(toml::Value::Table(settings)),
+            "settings": json::from_toml(&toml::Value::Table(settings)),
         })
     };
-    let points = |path: &[Point]| path.iter().map(|p| [p.x, p.y]).collect::<Vec<_>>();
     let scene = |s: &SceneResult| {
         let Optimum { length, path, reason } = &s.optimum;
         json!({
             "set": s.set,
             "scene": s.scene,
-            "optimum": { "length": length, "path": points(path), "reason": reason },
+            "optimum": { "length": length, "path": json::points(path), "reason": reason },
         })
     };
     let run = |r: &RunRecord| {
-        json!({
-            "scene": r.scene,
-            "planner": r.planner,
-            "repeat": r.repeat,
-            "seed": r.seed,
-            "status": r.status,
-            "valid": r.valid,
-            "length": r.length,
-            "gap": r.gap,
-            "clearance_min": r.clearance_min,
-            "turning": r.turning,
-            "iterations": r.iterations,
-            "evaluations": r.evaluations,
-            "collision_checks": r.collision_checks,
-            "time_us": r.time_us,
-            "cpu_us": r.cpu_us,
-            "overhead_us": r.overhead_us,
-            "error": r.error,
-            "cost": r.cost,
-            "terms": r.terms,
-            "path": points(&r.path),
-            "progress": r.progress,
-        })
+        let mut run = json::run(r);
+        run.extend([
+            ("planner".to_owned(), json!(r.planner)),
+            ("repeat".to_owned(), json!(r.repeat)),
+            ("overhead_us".to_owned(), json!(r.overhead_us)),
+            ("terms".to_owned(), json!(r.terms)),
+        ]);
+        run
     };
     let whole = json!({
         "$schema": "results.schema.json",
@@ -118,20 +102,6 @@ pub fn results_json(results: &Results) -> String {
         "runs": results.runs.iter().map(run).collect::<Vec<_>>(),
     });
     whole.to_string() + "\n"
-}
-
-/// A TOML value as JSON; numbers that JSON lacks (inf, nan) and dates become their text.
-fn plain(value: toml::Value) -> Value {
-    match value {
-        toml::Value::Float(number) if !number.is_finite() => number.to_string().into(),
-        toml::Value::Float(number) => number.into(),
-        toml::Value::Integer(number) => number.into(),
-        toml::Value::Boolean(flag) => flag.into(),
-        toml::Value::String(text) => text.into(),
-        toml::Value::Datetime(instant) => instant.to_string().into(),
-        toml::Value::Array(values) => values.into_iter().map(plain).collect(),
-        toml::Value::Table(table) => table.into_iter().map(|(key, value)| (key, plain(value))).collect(),
-    }
 }
 
 #[cfg(test)]

@@ -84,7 +84,7 @@ pub fn write(folder: &Path, stored: &Stored, formats: Formats, language: Languag
     }
     if formats.ompl {
         create("ompl")?;
-        for (name, log) in ompl::logs(results) {
+        for (name, log) in ompl::logs(results, &stored.comparison) {
             put(&format!("ompl/{name}.log"), &log)?;
         }
     }

@@ -35,18 +35,44 @@ const PROPERTIES: [(&str, &str); 15] = [
 ];
 
 /// The logs, one a scene in the comparison's order, each with a name for its file (without an ending) and for the
-/// experiment: unique even where case does not count.
-pub fn logs(results: &Results) -> Vec<(String, String)> {
+/// experiment: unique even where case does not count. Limits of memory are read from the resolved `comparison`.
+pub fn logs(results: &Results, comparison: &str) -> Vec<(String, String)> {
     let names = unique(results.scenes.iter().map(|s| word(&s.scene.name)));
     let planners = unique(results.planners.iter().map(|p| format!("geometric_{}", word(&p.label))));
+    let memory = Memory::of(results, comparison);
     let log = |(scene, name): (&SceneResult, String)| {
-        let text = log(results, scene, &name, &planners);
+        let text = log(results, scene, &name, &planners, &memory);
         (name, text)
     };
     results.scenes.iter().zip(names).map(log).collect()
 }
 
-fn log(results: &Results, scene: &SceneResult, name: &str, planners: &[String]) -> String {
+/// What the planners' processes might hold.
+struct Memory {
+    /// The limit of all planners, MiB; 0 without one.
+    common: i64,
+    /// The limits in words.
+    said: String,
+}
+
+impl Memory {
+    fn of(results: &Results, comparison: &str) -> Self {
+        let comparison: toml::Table = comparison.parse().expect("written by this program");
+        let limit = |p: &PlannerInfo| comparison.get("planner")?.get(&p.label)?.get("memory_mb")?.as_integer();
+        let limits: Vec<Option<i64>> = results.planners.iter().map(limit).collect();
+        let first = limits.first().copied().flatten();
+        if limits.iter().any(|limit| *limit != first) {
+            let words = |mb: &Option<i64>| mb.map_or("no limit".to_owned(), |mb| format!("{mb} MiB"));
+            let each = results.planners.iter().zip(&limits).map(|(p, mb)| format!("{} {}", clean(&p.label), words(mb)));
+            return Self { common: 0, said: format!("Memory: {}", each.collect::<Vec<_>>().join(", ")) };
+        }
+        let said =
+            first.map_or("Memory was not limited".to_owned(), |mb| format!("Memory: {mb} MiB for every planner"));
+        Self { common: first.unwrap_or(0), said }
+    }
+}
+
+fn log(results: &Results, scene: &SceneResult, name: &str, planners: &[String], memory: &Memory) -> String {
     let manifest = &results.manifest;
     let every = results.planners.iter().zip(planners).map(|(planner, name)| {
         (planner, name, results.runs_of(&planner.label, Some(&scene.scene.name)).collect::<Vec<_>>())
@@ -68,10 +94,11 @@ fn log(results: &Results, scene: &SceneResult, name: &str, planners: &[String]) 
     line(format!("Running on {}", word(&manifest.platform)));
     line(format!("Starting at {}", manifest.started.replace('T', " ").trim_end_matches('Z')));
     line(format!(
-        "<<<|\nComparison {}, scene {}, lengths in {}\nMemory was not limited; times are limited where a planner's budget says so\n|>>>",
+        "<<<|\nComparison {}, scene {}, lengths in {}\n{}; times are limited where a planner's budget says so\n|>>>",
         clean(&results.name),
         clean(&scene.scene.name),
         clean(&scene.scene.unit),
+        memory.said,
     ));
     line(format!(
         "<<<|\n{}, {} processors, {} jobs, {} build\n|>>>",
@@ -81,7 +108,7 @@ fn log(results: &Results, scene: &SceneResult, name: &str, planners: &[String]) 
         manifest.profile
     ));
     line(format!("{} is the random seed", results.seed));
-    line(format!("{limit} seconds per run\n0 MB per run\n{} runs per planner", results.repeats));
+    line(format!("{limit} seconds per run\n{} MB per run\n{} runs per planner", memory.common, results.repeats));
     line(format!("{} seconds spent to collect the data", times.iter().sum::<f64>()));
     line(format!("1 enum type\n{STATUSES}\n{} planners", present.len()));
     for (planner, name, runs) in present {

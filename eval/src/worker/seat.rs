@@ -13,6 +13,7 @@ use super::tether;
 use crate::campaign::{Arena, micros};
 use crate::config::{Maker, PlannerEntry};
 use crate::error::Error;
+use crate::json;
 use crate::recorder::Recorder;
 use crate::results::{RunRecord, RunStatus};
 use crate::runner;
@@ -60,7 +61,7 @@ impl<'c> Seat<'c> {
         let place = match entry.instance().filter(|_| !isolate && !entry.isolated()) {
             Some(planner) => Place::Here(Box::new(Here { planner, plan: Plan::new(), recorder: Recorder::new() })),
             None => {
-                let settings = raw(&json(&toml::Value::Table(entry.settings.clone())));
+                let settings = raw(&json::from_toml(&toml::Value::Table(entry.settings.clone())));
                 Place::Apart(Box::new(Apart { process: None, settings, scene: None, last_id: 0 }))
             }
         };
@@ -218,19 +219,6 @@ fn raw(value: &impl serde::Serialize) -> Box<RawValue> {
     serde_json::value::to_raw_value(value).expect("plain data with string keys")
 }
 
-/// TOML as JSON; what JSON lacks (dates, NaN, infinity) as text.
-fn json(value: &toml::Value) -> serde_json::Value {
-    match value {
-        toml::Value::String(text) => text.as_str().into(),
-        toml::Value::Integer(n) => (*n).into(),
-        toml::Value::Float(x) if x.is_finite() => (*x).into(),
-        toml::Value::Boolean(b) => (*b).into(),
-        toml::Value::Array(values) => values.iter().map(json).collect(),
-        toml::Value::Table(table) => table.iter().map(|(key, value)| (key.clone(), json(value))).collect(),
-        other => other.to_string().into(),
-    }
-}
-
 /// The first characters of what came, for messages.
 fn beginning(line: &[u8]) -> String {
     const MOST: usize = 120;
@@ -245,13 +233,6 @@ fn beginning(line: &[u8]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn settings_keep_their_types() {
-        let table = "a = 1\nb = 1.0\nc = [inf, nan, 0.1]\nd = 2012-05-01\ne = { f = \"x\", g = true }".parse().unwrap();
-        let expected = r#"{"a":1,"b":1.0,"c":["inf","nan",0.1],"d":"2012-05-01","e":{"f":"x","g":true}}"#;
-        assert_eq!(json(&toml::Value::Table(table)).to_string(), expected);
-    }
 
     #[test]
     fn what_came_is_shown_in_part() {

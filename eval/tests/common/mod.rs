@@ -24,6 +24,12 @@ impl Place {
         Command::new(env!("CARGO_BIN_EXE_touchline")).args(args).current_dir(&self.0).output().unwrap()
     }
 
+    /// Exit code, standard output and standard error of `touchline args…`.
+    pub fn told(&self, args: &[&str]) -> (i32, String, String) {
+        let output = self.run(args);
+        (output.status.code().unwrap(), text(&output.stdout), text(&output.stderr))
+    }
+
     /// Writes a file.
     pub fn write(&self, name: &str, text: &str) {
         fs::write(self.0.join(name), text).unwrap();

@@ -163,7 +163,7 @@ fn results() -> Results {
 #[test]
 fn a_strict_reader_finds_the_same_medians() {
     let results = results();
-    let logs = logs(&results);
+    let logs = logs(&results, "");
     assert_eq!(logs.len(), 2);
     for (name, log) in &logs {
         let read = read(log);
@@ -184,7 +184,7 @@ fn a_strict_reader_finds_the_same_medians() {
 #[test]
 fn statuses_are_those_of_ompl() {
     let results = results();
-    let (_, log) = &logs(&results)[0];
+    let (_, log) = &logs(&results, "")[0];
     let of = |planner: usize, property: &str| {
         let planner = &read(log).planners[planner];
         let index = planner.properties.iter().position(|p| p == property).unwrap();
@@ -214,7 +214,7 @@ fn times_are_keys_of_progress() {
         run.progress.clear();
     }
     let scene = results.runs[0].scene.clone();
-    let logs = logs(&results);
+    let logs = logs(&results, "");
     let (_, log) = logs.iter().find(|(name, _)| *name == scene).unwrap();
     let read = read(log);
     assert_eq!(read.planners.len(), 1, "planners without runs are left out");
@@ -227,4 +227,22 @@ fn times_are_keys_of_progress() {
 fn names_are_words_and_differ_without_case() {
     let names = unique(["a b", "A_B", "a_b_2", ".x"].iter().map(|n| word(n)));
     assert_eq!(names, ["a_b", "A_B_2", "a_b_2_2", "_.x"]);
+}
+
+#[test]
+fn limits_of_memory_are_told() {
+    let results = results();
+    let line = |limits: [&str; 4]| {
+        let table = |(p, limit): (&PlannerInfo, &str)| format!("[planner.{:?}]\n{limit}\n", p.label);
+        let comparison: String = results.planners.iter().zip(limits).map(table).collect();
+        let (_, log) = &logs(&results, &comparison)[0];
+        read(log);
+        let found = |part: &str| log.lines().find(|l| l.contains(part)).unwrap().to_owned();
+        (found("MB per run"), found("Memory").split_once(';').unwrap().0.to_owned())
+    };
+    let (none, some, more) = ("", "memory_mb = 64", "memory_mb = 100");
+    assert_eq!(line([none; 4]), ("0 MB per run".into(), "Memory was not limited".into()));
+    assert_eq!(line([some; 4]), ("64 MB per run".into(), "Memory: 64 MiB for every planner".into()));
+    let each = "Memory: de tour 64 MiB, DE-tour 100 MiB, nothing no limit, no 64 MiB";
+    assert_eq!(line([some, more, none, some]), ("0 MB per run".into(), each.into()));
 }
