@@ -54,6 +54,7 @@ pub struct Curves {
     /// Cells as in the grid; none of the scenes without optimum.
     cells: Vec<Vec<Course>>,
     with_optimum: Vec<usize>,
+    charged: Vec<bool>,
 }
 
 impl Curves {
@@ -61,8 +62,11 @@ impl Curves {
     pub fn new(grid: &Grid<'_>) -> Self {
         let (planners, scenes) = (grid.planners.len(), grid.scenes.len());
         let mut cells = Vec::with_capacity(planners * scenes);
+        let mut charged = Vec::with_capacity(planners);
         for planner in 0..planners {
             let lengths = grid.runs_in(planner, None).all(cost_is_length);
+            let valid = || grid.runs_in(planner, None).filter(|r| r.valid);
+            charged.push(valid().next().is_some() && (!lengths || valid().all(|r| r.progress.is_empty())));
             for (s, scene) in grid.scenes.iter().enumerate() {
                 let runs = if scene.optimum.length.is_some() { grid.runs(planner, s) } else { &[] };
                 let optimum = scene.optimum.length.unwrap_or(f64::NAN);
@@ -70,12 +74,17 @@ impl Curves {
             }
         }
         let with_optimum = (0..scenes).filter(|s| grid.scenes[*s].optimum.length.is_some()).collect();
-        Self { scenes, planners, cells, with_optimum }
+        Self { scenes, planners, cells, with_optimum, charged }
     }
 
     /// The scenes whose optimum is known: no other enters.
     pub fn scenes(&self) -> &[usize] {
         &self.with_optimum
+    }
+
+    /// Whether of no valid run of this planner is known when it became good, so that each is charged in full.
+    pub fn charged(&self, planner: usize) -> bool {
+        self.charged[planner]
     }
 
     /// Planners of the grid.

@@ -21,4 +21,5 @@ pub use blocks::{Measure, Over, quality};
 pub(crate) use curves::cost_is_length;
 pub use curves::{Curves, Effort};
 pub use grid::Grid;
+pub(crate) use summary::counted_cost;
 pub use summary::{Summary, counted_length, summarise};
