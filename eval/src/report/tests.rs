@@ -605,7 +605,7 @@ fn the_entry_answers_for_each_count_budget() {
     assert_eq!(best("Fastest good planner"), ["a[1000 evaluations]"], "no other is within 1 %");
     let budgets = page.split_once("id=\"budgets-table\"").unwrap().1.split_once("</table>").unwrap().0;
     let row = |budget: &str| budgets.split_once(&format!(">{budget}<")).unwrap().1.split_once("</tr>").unwrap().0;
-    assert!(row("10 evaluations").contains("quick: 5") && row("10 evaluations").contains(">none<"), "{budgets}");
+    assert!(row("10 evaluations").contains("quick: 5") && row("10 evaluations").contains(">nobody<"), "{budgets}");
     assert!(row("1000 evaluations").contains("a[1000 evaluations]: 0.5"), "{budgets}");
     let quotes = page.split_once("<ul class=\"quotes\">").unwrap().1.split_once("</ul>").unwrap().0;
     assert_eq!(quotes.matches("<li>").count(), 2, "one of each group: {quotes}");
