@@ -6,7 +6,7 @@ mod common;
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::process::{Command, Stdio};
+use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
 use common::{Place, SCENE};
@@ -94,7 +94,7 @@ fn at_first_good(script: &str) -> String {
 type Bad = (&'static str, &'static str, &'static str, RunStatus, &'static str);
 
 const BAD: &[Bad] = {
-    use RunStatus::{Crashed, Error, Solved, Timeout};
+    use RunStatus::{Crashed, Error, Timeout};
     &[
         ("aborts", "echo 'no more memory for me' >&2; kill -ABRT $$", "", Crashed, "SIGABRT"),
         ("segfaults", "kill -SEGV $$", "", Crashed, "SIGSEGV"),

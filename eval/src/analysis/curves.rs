@@ -59,6 +59,7 @@ pub struct Curves {
     with_optimum: Vec<usize>,
     /// For each planner whether the evaluations of all its runs are known.
     counted: Vec<bool>,
+    charged: Vec<bool>,
 }
 
 impl Curves {
@@ -66,11 +67,13 @@ impl Curves {
     pub fn new(grid: &Grid<'_>) -> Self {
         let (planners, scenes) = (grid.planners.len(), grid.scenes.len());
         let mut cells = Vec::with_capacity(planners * scenes);
-        let mut counted = Vec::with_capacity(planners);
+        let (mut counted, mut charged) = (Vec::with_capacity(planners), Vec::with_capacity(planners));
         for planner in 0..planners {
             let lengths = grid.runs_in(planner, None).all(cost_is_length);
             let spent = Evaluations::of(&grid.planners[planner], grid.runs_in(planner, None));
             counted.push(grid.runs_in(planner, None).all(|run| spent.spent(run).is_some()));
+            let valid = || grid.runs_in(planner, None).filter(|r| r.valid);
+            charged.push(valid().next().is_some() && (!lengths || valid().all(|r| r.progress.is_empty())));
             for (s, scene) in grid.scenes.iter().enumerate() {
                 let runs = if scene.optimum.length.is_some() { grid.runs(planner, s) } else { &[] };
                 let course = |run: &&RunRecord| Course::new(run, spent.spent(run), scene.optimum.length, lengths);
@@ -78,12 +81,17 @@ impl Curves {
             }
         }
         let with_optimum = (0..scenes).filter(|s| grid.scenes[*s].optimum.length.is_some()).collect();
-        Self { scenes, planners, cells, with_optimum, counted }
+        Self { scenes, planners, cells, with_optimum, counted, charged }
     }
 
     /// The scenes whose optimum is known: no other enters.
     pub fn scenes(&self) -> &[usize] {
         &self.with_optimum
+    }
+
+    /// Whether of no valid run of this planner is known when it became good, so that each is charged in full.
+    pub fn charged(&self, planner: usize) -> bool {
+        self.charged[planner]
     }
 
     /// Planners of the grid.

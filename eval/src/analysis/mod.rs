@@ -22,4 +22,5 @@ pub use blocks::{Measure, Over, quality};
 pub(crate) use curves::{Course, Step, cost_is_length};
 pub use curves::{Curves, Effort};
 pub use grid::Grid;
+pub(crate) use summary::counted_cost;
 pub use summary::{Summary, counted_length, summarise};

@@ -39,7 +39,7 @@ pub fn counted_length(run: &RunRecord) -> f64 {
 }
 
 /// A run's own cost as it counts in statistics: +∞ unless valid.
-fn counted_cost(run: &RunRecord) -> f64 {
+pub(crate) fn counted_cost(run: &RunRecord) -> f64 {
     if run.valid { run.cost.unwrap_or(f64::INFINITY) } else { f64::INFINITY }
 }
 

@@ -1,5 +1,7 @@
 //! The answer in one screen: which planner, for which scenes, at which budget.
 
+use std::collections::BTreeSet;
+
 use minijinja::{Value, context};
 
 use super::data_table::swatch;
@@ -11,6 +13,7 @@ use crate::analysis::sentences::{Sentence, against_best, validity};
 use crate::analysis::targets::SHOWN;
 use crate::analysis::{Effort, Measure};
 use crate::format;
+use crate::statistics::median_interval::median_interval;
 use crate::statistics::{median, wilson};
 
 /// More names than this are counted instead of listed.
@@ -73,36 +76,40 @@ fn least(candidates: Vec<(usize, f64, Option<[f64; 2]>)>, measure: Measure) -> O
     Some(Answer { planners: equal.iter().map(|c| c.0).collect(), figure, measure })
 }
 
-/// Who has the best paths.
-pub fn best(evidence: &Evidence<'_>, scenes: &[usize]) -> Option<Answer> {
+/// Who of `among` has the best paths.
+pub fn best(evidence: &Evidence<'_>, scenes: &[usize], among: &dyn Fn(usize) -> bool) -> Option<Answer> {
     let figure = |p: usize| evidence.quality_of(p, scenes).map(|q| (p, q.median, q.ends()));
-    let candidates = eligible(evidence, scenes).into_iter().filter_map(figure).collect();
+    let candidates = eligible(evidence, scenes).into_iter().filter(|p| among(*p)).filter_map(figure).collect();
     least(candidates, evidence.quality.measure)
 }
 
-/// Who has the best paths after `time_us`; nobody whose gap is beyond the easiest target.
-pub fn within(evidence: &Evidence<'_>, scenes: &[usize], time_us: f64) -> Option<Answer> {
+/// Who has the best paths after that much `effort`; nobody whose gap is beyond the easiest target.
+pub fn within(evidence: &Evidence<'_>, scenes: &[usize], effort: Effort, at: f64) -> Option<Answer> {
     let known: Vec<usize> = scenes.iter().copied().filter(|s| evidence.curves.scenes().contains(s)).collect();
-    let bands = |p: usize, scene| fixed_budget(&evidence.curves, p, scene, Effort::Time, &[time_us]);
-    let figure = |p: usize| {
-        if known.len() == evidence.grid.scenes.len() {
-            let band = bands(p, None).first().copied()?;
-            return Some((p, band.median, band.interval.map(|i| [i.low, i.high])));
+    let band = |p: usize, scene| fixed_budget(&evidence.curves, p, Some(scene), effort, &[at]).first().copied();
+    let figure = |p: usize| match known.as_slice() {
+        [scene] => band(p, *scene).map(|b| (p, b.median, b.interval)),
+        _ => {
+            let medians: Vec<f64> = known.iter().filter_map(|s| band(p, *s)).map(|b| b.median).collect();
+            Some((p, median(&medians)?, median_interval(&medians)))
         }
-        let medians: Vec<f64> =
-            known.iter().filter_map(|s| bands(p, Some(*s)).first().copied()).map(|b| b.median).collect();
-        Some((p, median(&medians)?, None))
     };
-    let usable = |c: &(usize, f64, Option<[f64; 2]>)| c.1 <= SHOWN[0];
-    least(eligible(evidence, scenes).into_iter().filter_map(figure).filter(usable).collect(), Measure::Gap)
+    let figures = eligible(evidence, scenes).into_iter().filter_map(figure).filter(|(_, gap, _)| *gap <= SHOWN[0]);
+    least(figures.map(|(p, gap, interval)| (p, gap, interval.map(|i| [i.low, i.high]))).collect(), Measure::Gap)
 }
 
-/// Who is fastest of those that are near enough to the optimum, or without gaps of those that are mostly valid.
-pub fn fastest(evidence: &Evidence<'_>, scenes: &[usize]) -> Option<Answer> {
+/// Who is fastest of those of `among` that are near enough to the optimum, or without gaps of those mostly valid.
+pub fn fastest(evidence: &Evidence<'_>, scenes: &[usize], among: &dyn Fn(usize) -> bool) -> Option<Answer> {
     let limit = if evidence.quality.measure == Measure::Gap { NEAR } else { f64::MAX };
-    let good = |p: &usize| evidence.quality_of(*p, scenes).is_some_and(|q| q.median <= limit);
+    let good = |p: &usize| among(*p) && evidence.quality_of(*p, scenes).is_some_and(|q| q.median <= limit);
     let figure = |p: usize| evidence.time_of(p, scenes).map(|time| (p, time.median, time.ends()));
     least(eligible(evidence, scenes).into_iter().filter(good).filter_map(figure).collect(), Measure::Time)
+}
+
+/// The numbers of evaluations that planners are limited to, where there are several.
+fn counts(evidence: &Evidence<'_>) -> BTreeSet<u64> {
+    let counts: BTreeSet<u64> = evidence.results.planners.iter().filter_map(|p| p.budget.evaluations).collect();
+    if counts.len() > 1 { counts } else { BTreeSet::new() }
 }
 
 /// Powers of ten of a microsecond at which the best planner is another one than at the one before.
@@ -111,7 +118,7 @@ pub fn decades(evidence: &Evidence<'_>) -> Vec<f64> {
     let mut last = None;
     let mut out = Vec::new();
     for us in (0..8).map(|e| 10f64.powi(e)) {
-        let best = within(evidence, &scenes, us).map(|a| a.planners);
+        let best = within(evidence, &scenes, Effort::Time, us).map(|a| a.planners);
         if best.is_some() && best != last {
             out.push(us);
             last = best;
@@ -136,7 +143,7 @@ pub fn answers(evidence: &Evidence<'_>, t: &Strings) -> Value {
         context! { question, who => who(planners), more, detail, href }
     };
     let mut rows = Vec::new();
-    if let Some(answer) = best(evidence, &scenes) {
+    if let Some(answer) = best(evidence, &scenes, &|_| true) {
         let key = match (answer.measure, evidence.grid.scenes.len()) {
             (Measure::Gap, _) => "answer_best_gap",
             (_, 1) => "answer_best_length",
@@ -144,13 +151,19 @@ pub fn answers(evidence: &Evidence<'_>, t: &Strings) -> Value {
         };
         rows.push(line(t.get("answer_best"), &answer.planners, answer.detail(key, t), "#overall-table"));
     }
+    for n in counts(evidence) {
+        if let Some(answer) = within(evidence, &scenes, Effort::Evaluations, n as f64) {
+            let question = t.fill("answer_within_count", &[("n", &format::count(n as f64))]);
+            rows.push(line(&question, &answer.planners, answer.detail("answer_within_gap", t), "#variants"));
+        }
+    }
     for us in decades(evidence) {
-        if let Some(answer) = within(evidence, &scenes, us) {
+        if let Some(answer) = within(evidence, &scenes, Effort::Time, us) {
             let question = t.fill("answer_within", &[("time", &format::time(us))]);
             rows.push(line(&question, &answer.planners, answer.detail("answer_within_gap", t), "#fixed"));
         }
     }
-    if let Some(answer) = fastest(evidence, &scenes) {
+    if let Some(answer) = fastest(evidence, &scenes, &|_| true) {
         let key = if evidence.quality.measure == Measure::Gap { "answer_fastest_near" } else { "answer_fastest_valid" };
         rows.push(line(t.get("answer_fastest"), &answer.planners, answer.detail(key, t), "#overall-table"));
     }
@@ -193,20 +206,22 @@ fn size(evidence: &Evidence<'_>, t: &Strings) -> String {
     )
 }
 
-/// The nearest rivals of the best planner, by quality and by time.
+/// The nearest rivals of the best planner by quality, of the variants of one planner the nearest.
 fn quotes(evidence: &Evidence<'_>, t: &Strings) -> Vec<String> {
     let mut quality = against_best(&evidence.grid, &evidence.quality);
     let rival = |s: &Sentence| match s {
-        Sentence::Better { medians, .. } | Sentence::TooFew { medians, .. } | Sentence::Settled { medians, .. } => {
-            medians[1]
-        }
+        Sentence::Better { worse, medians, .. } => (*worse, medians[1]),
+        Sentence::Settled { other, medians, .. } => (*other, medians[1]),
+        Sentence::TooFew { other, medians, .. } => (*other, medians[1]),
         Sentence::Alike { best, other, .. } => {
-            evidence.quality.of(*best, *other).map_or(f64::INFINITY, |pair| pair.medians_of(*other)[0])
+            (*other, evidence.quality.of(*best, *other).map_or(f64::INFINITY, |pair| pair.medians_of(*other)[0]))
         }
-        Sentence::Valid { .. } => f64::INFINITY,
+        Sentence::Valid { planner, .. } => (*planner, f64::INFINITY),
     };
-    quality.retain(|s| rival(s).is_finite());
-    quality.sort_by(|a, b| rival(a).total_cmp(&rival(b)));
+    quality.retain(|s| rival(s).1.is_finite());
+    quality.sort_by(|a, b| rival(a).1.total_cmp(&rival(b).1));
+    let mut groups = BTreeSet::new();
+    quality.retain(|s| groups.insert(evidence.results.planners[rival(s).0].group.as_str()));
     quality.truncate(QUOTED);
     quality.iter().map(|s| phrases::phrase(s, evidence, t)).collect()
 }

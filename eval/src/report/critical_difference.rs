@@ -1,7 +1,8 @@
 //! Critical-difference diagram: mean ranks, and bars that join planners which cannot be told apart.
 //!
 //! Demšar, *Statistical comparisons of classifiers over multiple data sets*, JMLR 7 (2006) 1–30. One row a planner
-//! instead of labels on two sides, so that long labels and many planners have room.
+//! instead of labels on two sides, its name over its mark in as many lines as it needs, so that long labels and many
+//! planners have room.
 
 use std::fmt::Write as _;
 
@@ -21,11 +22,14 @@ use crate::format;
 const ID: &str = "critical";
 const LEFT: f64 = 30.0;
 const TOP: f64 = 92.0;
-const ROW: f64 = 28.0;
+/// Height of one line of a name; on narrow screens letters are 22 units high.
+const NAME: f64 = 26.0;
+/// Height of the band that a mark stands in, below its name.
+const MARK: f64 = 24.0;
 /// Width of one column of bars.
 const BAR: f64 = 12.0;
-/// Letters of a label that have room beside its mark.
-const LETTERS: usize = 26;
+/// Width of a bold letter of 22 units, on average, and a little.
+const LETTER: f64 = 13.5;
 
 /// The figure by quality; `None` where there is nothing to rank.
 pub fn figure(evidence: &Evidence<'_>, t: &Strings) -> Option<Value> {
@@ -34,7 +38,14 @@ pub fn figure(evidence: &Evidence<'_>, t: &Strings) -> Option<Value> {
     let gutter = BAR * columns.iter().max().map_or(0.0, |c| (c + 1) as f64) + 12.0;
     let k = ranking.order.len();
     let x = Axis::linear(1.0, k as f64, LEFT, chart::WIDTH - LEFT - gutter);
-    let bottom = TOP + ROW * k as f64;
+    let letters = ((chart::WIDTH - 2.0 * LEFT - gutter) / LETTER) as usize;
+    let names: Vec<Vec<String>> = ranking.order.iter().map(|p| lines(evidence.label(*p), letters)).collect();
+    let mut tops = vec![TOP];
+    tops.extend(names.iter().scan(TOP, |top, name| {
+        *top += NAME * name.len() as f64 + MARK;
+        Some(*top)
+    }));
+    let bottom = tops[k];
     let title = t.get("critical_title");
     let text = text(&ranking, t);
     let mut svg = chart::open(ID, bottom + 48.0, title, &text);
@@ -48,23 +59,24 @@ pub fn figure(evidence: &Evidence<'_>, t: &Strings) -> Option<Value> {
         TOP - 14.0,
         escape(t.get("critical_x"))
     );
-    let middle = 0.5 * (x.at(1.0) + x.at(k as f64));
     for (place, planner) in ranking.order.iter().enumerate() {
-        let (px, py) = (x.at(ranking.test.mean_ranks[*planner]), TOP + ROW * (place as f64 + 0.5));
-        let (class, at) = if px < middle { ("row", px + 13.0) } else { ("row last", px - 13.0) };
-        let label = evidence.label(*planner);
+        let py = tops[place + 1] - 0.5 * MARK;
         let _ = write!(
             svg,
-            r#"<g data-series="{planner}"><title>{}</title>{}<text class="{class}" x="{at:.1}" y="{:.1}">{}</text></g>"#,
-            escape(label),
-            palette::marker(*planner, px, py),
-            py + 5.0,
-            escape(&shortened(label))
+            r#"<g data-series="{planner}"><title>{}</title><path class="grid" d="M{LEFT} {py:.1}H{:.1}"/>{}"#,
+            escape(evidence.label(*planner)),
+            x.at(k as f64),
+            palette::marker(*planner, x.at(ranking.test.mean_ranks[*planner]), py)
         );
+        for (n, line) in names[place].iter().enumerate() {
+            let base = tops[place] + NAME * (n as f64 + 0.8);
+            let _ = write!(svg, r#"<text class="row" x="{LEFT}" y="{base:.1}">{}</text>"#, escape(line));
+        }
+        svg += "</g>";
     }
     for ([first, last], column) in ranking.groups.iter().zip(&columns) {
         let px = chart::WIDTH - LEFT - gutter + 18.0 + BAR * *column as f64;
-        let (y0, y1) = (TOP + ROW * (*first as f64 + 0.2), TOP + ROW * (*last as f64 + 0.8));
+        let (y0, y1) = (tops[*first] + 6.0, tops[*last + 1] - 4.0);
         let _ = write!(svg, r#"<path class="group" d="M{px:.1} {y0:.1}V{y1:.1}"/>"#);
     }
     svg += "</svg>";
@@ -130,11 +142,22 @@ fn columns(groups: &[[usize; 2]]) -> Vec<usize> {
     out
 }
 
-fn shortened(label: &str) -> String {
-    if label.chars().count() <= LETTERS {
-        return label.to_owned();
+/// `label` in lines of at most `letters` Latin letters, broken after spaces and brackets where it has any.
+fn lines(label: &str, letters: usize) -> Vec<String> {
+    // Chinese characters are about twice as wide.
+    let width = |c: char| if c.is_ascii() { 1 } else { 2 };
+    let (mut lines, mut line, mut used) = (Vec::new(), String::new(), 0);
+    for c in label.chars() {
+        if used + width(c) > letters && !line.is_empty() {
+            let rest = line.rfind([' ', '[']).map_or(String::new(), |at| line.split_off(at + 1));
+            used = rest.chars().map(width).sum();
+            lines.push(std::mem::replace(&mut line, rest));
+        }
+        line.push(c);
+        used += width(c);
     }
-    label.chars().take(LETTERS - 1).chain(['…']).collect()
+    lines.push(line);
+    lines
 }
 
 #[cfg(test)]
@@ -144,7 +167,17 @@ mod tests {
     #[test]
     fn bars_that_overlap_stand_beside_each_other() {
         assert_eq!(columns(&[[0, 2], [1, 4], [3, 5], [5, 6], [7, 8]]), [0, 1, 0, 1, 0]);
-        assert_eq!(shortened("pso"), "pso");
-        assert_eq!(shortened(&"é".repeat(40)).chars().count(), LETTERS);
+    }
+
+    #[test]
+    fn names_are_broken_not_cut() {
+        assert_eq!(lines("pso", 20), ["pso"]);
+        assert_eq!(
+            lines("pso[velocity_limit=0.25, 2000 evaluations]", 26),
+            ["pso[velocity_limit=0.25, ", "2000 evaluations]"]
+        );
+        assert_eq!(lines("一二三四五", 4), ["一二", "三四", "五"]);
+        assert_eq!(lines(&"x".repeat(45), 20).iter().map(String::len).collect::<Vec<_>>(), [20, 20, 5]);
+        assert_eq!(lines("", 20), [""]);
     }
 }

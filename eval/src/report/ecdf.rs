@@ -45,11 +45,12 @@ pub fn figure(evidence: &Evidence<'_>, kind: Effort, t: &Strings) -> Option<Valu
     let heads: Vec<String> = columns.iter().map(|x| effort::number(kind)(*x)).collect();
     let heads: Vec<&str> = [t.get("head_planner")].into_iter().chain(heads.iter().map(String::as_str)).collect();
     let data = table(&format!("{id}-data"), t.get("ecdf_table"), &heads, rows.collect());
-    let text = [
+    let mut text = vec![
         t.fill("ecdf_text", &[("targets", &targets.len().to_string()), ("runs", &t.plural(runs, "runs_one", "runs"))]),
         t.get("targets_when").to_owned(),
-    ]
-    .join(t.get("sentence_gap"));
+    ];
+    text.extend(evidence.unlike(&|p| !curves[p].steps.is_empty(), "curve_absent", t));
+    let text = text.join(t.get("sentence_gap"));
     let x = Axis::log(low, high, chart::LEFT, chart::RIGHT);
     let y = Axis::linear(0.0, 1.0, BOTTOM, TOP);
     let chart = Chart {

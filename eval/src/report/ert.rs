@@ -48,8 +48,9 @@ pub fn figure(evidence: &Evidence<'_>, kind: Effort, t: &Strings) -> Option<Valu
     let heads: Vec<String> = SHOWN.iter().map(|target| format!("≤ {}", format::percent(*target))).collect();
     let heads: Vec<&str> = [t.get("head_planner")].into_iter().chain(heads.iter().map(String::as_str)).collect();
     let data = table(&format!("{id}-data"), t.get("ert_table"), &heads, rows.collect());
-    let text = [t.fill("ert_text", &[("resamples", &RESAMPLES.to_string())]), t.get("targets_when").to_owned()]
-        .join(t.get("sentence_gap"));
+    let mut text = vec![t.fill("ert_text", &[("resamples", &RESAMPLES.to_string())]), t.get("targets_when").to_owned()];
+    text.extend(evidence.unlike(&|p| !lines[p].points.is_empty(), "curve_absent", t));
+    let text = text.join(t.get("sentence_gap"));
     // The hardest target is on the right.
     let x = Axis::log_exact(SHOWN[SHOWN.len() - 1], SHOWN[0], chart::RIGHT - 14.0, chart::LEFT + 14.0);
     let y = Axis::log(low, high, BOTTOM, TOP);

@@ -1,7 +1,8 @@
 //! What the figures over all test scenes start from, computed once.
 
+use super::language::Strings;
 use crate::analysis::pairs::Pairs;
-use crate::analysis::{Curves, Effort, Grid, Measure, quality};
+use crate::analysis::{Curves, Effort, Grid, Measure, counted_length, quality};
 use crate::results::{Results, RunRecord};
 use crate::statistics::median;
 use crate::statistics::median_interval::{MedianInterval, median_interval};
@@ -59,9 +60,10 @@ impl<'a> Evidence<'a> {
         &self.results.planners[planner].label
     }
 
-    /// All scenes of the grid.
+    /// The scenes of the grid that any planner has runs in; an unfinished campaign lacks some.
     pub fn scenes(&self) -> Vec<usize> {
-        (0..self.grid.scenes.len()).collect()
+        let run = |s: &usize| (0..self.grid.planners.len()).any(|p| !self.grid.runs(p, *s).is_empty());
+        (0..self.grid.scenes.len()).filter(run).collect()
     }
 
     /// The figure of `planner` by `value` in `scenes`; `None` where it has no runs there.
@@ -82,11 +84,10 @@ impl<'a> Evidence<'a> {
     /// Its quality: gap, or where an optimum is not known the length, of several scenes in multiples of the shortest.
     pub fn quality_of(&self, planner: usize, scenes: &[usize]) -> Option<Typical> {
         let one = self.grid.scenes.len() == 1;
-        let length = |r: &RunRecord| if r.valid { r.length.unwrap_or(f64::INFINITY) } else { f64::INFINITY };
         self.typical(planner, scenes, &|r, s| match self.quality.measure {
-            Measure::Gap => (length(r) / self.references[s] - 1.0).max(0.0),
-            _ if one => length(r),
-            _ => length(r) / self.references[s],
+            Measure::Gap => (counted_length(r) / self.references[s] - 1.0).max(0.0),
+            _ if one => counted_length(r),
+            _ => counted_length(r) / self.references[s],
         })
     }
 
@@ -99,6 +100,19 @@ impl<'a> Evidence<'a> {
     pub fn valid(&self, planner: usize, scenes: &[usize]) -> (usize, usize) {
         let runs = || scenes.iter().flat_map(|s| self.grid.runs(planner, *s));
         (runs().filter(|r| r.valid).count(), runs().count())
+    }
+
+    /// What a caption of curves against effort says of planners: of `absent` ones with words for them, and of those of
+    /// which only the whole run is known.
+    pub fn unlike(&self, drawn: &dyn Fn(usize) -> bool, absent: &str, t: &Strings) -> Vec<String> {
+        let known = |p: &usize| self.curves.scenes().iter().any(|s| !self.grid.runs(*p, *s).is_empty());
+        let planners: Vec<usize> = (0..self.grid.planners.len()).filter(known).collect();
+        let said = |key: &str, of: &dyn Fn(usize) -> bool| {
+            let names: Vec<String> = planners.iter().filter(|p| of(**p)).map(|p| self.label(*p).to_owned()).collect();
+            (!names.is_empty()).then(|| t.fill(key, &[("planners", &t.list(&names))]))
+        };
+        let charged = |p: usize| drawn(p) && self.curves.charged(p);
+        [said("curve_whole", &charged), said(absent, &|p| !drawn(p))].into_iter().flatten().collect()
     }
 
     /// Least and greatest effort at which anything happens, both above 0; `None` where nothing is spent.

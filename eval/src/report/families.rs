@@ -6,6 +6,7 @@ use super::answers::{self, Answer};
 use super::data_table::{row, table, words};
 use super::evidence::Evidence;
 use super::language::Strings;
+use crate::analysis::Effort;
 
 /// What a scene's name begins with, up to the first number: `wall` of `wall-s3-07`, `game` of `game-c0120-left`.
 fn family(name: &str) -> &str {
@@ -26,8 +27,8 @@ fn family(name: &str) -> &str {
 /// The families in the scenes' order, each with the positions of its scenes.
 fn families<'a>(evidence: &'a Evidence<'_>) -> Vec<(&'a str, Vec<usize>)> {
     let mut all: Vec<(&str, Vec<usize>)> = Vec::new();
-    for (i, scene) in evidence.grid.scenes.iter().enumerate() {
-        let name = family(&scene.scene.name);
+    for i in evidence.scenes() {
+        let name = family(&evidence.grid.scenes[i].scene.name);
         match all.iter_mut().find(|(known, _)| *known == name) {
             Some((_, scenes)) => scenes.push(i),
             None => all.push((name, vec![i])),
@@ -52,9 +53,9 @@ pub fn figure(evidence: &Evidence<'_>, t: &Strings) -> Option<Value> {
                 [scene] => evidence.grid.scenes[*scene].scene.name.clone(),
                 _ => format!("{name} ({})", scenes.len()),
             };
-            let within = times.iter().map(|us| shown(answers::within(evidence, scenes, *us)));
-            let cells = [words(name), shown(answers::best(evidence, scenes))].into_iter().chain(within);
-            row(cells.chain([shown(answers::fastest(evidence, scenes))]).collect())
+            let within = times.iter().map(|us| shown(answers::within(evidence, scenes, Effort::Time, *us)));
+            let cells = [words(name), shown(answers::best(evidence, scenes, &|_| true))].into_iter().chain(within);
+            row(cells.chain([shown(answers::fastest(evidence, scenes, &|_| true))]).collect())
         })
         .collect();
     let within: Vec<String> =

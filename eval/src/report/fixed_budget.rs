@@ -52,7 +52,9 @@ pub fn figure(evidence: &Evidence<'_>, kind: Effort, t: &Strings) -> Option<Valu
     let over = if evidence.curves.scenes().len() == 1 { "over_runs" } else { "over_scenes" };
     let many = lines.iter().filter(|l| !l.points.is_empty()).count() > lines::MOST_WITH_BANDS;
     let bands = t.get(if many { "fixed_no_bands" } else { "fixed_bands" });
-    let text = [t.get("fixed_text"), t.get(over), bands, t.get("targets_when")].join(t.get("sentence_gap"));
+    let mut text = [t.get("fixed_text"), t.get(over), bands, t.get("targets_when")].map(str::to_owned).to_vec();
+    text.extend(evidence.unlike(&|p| !lines[p].points.is_empty(), "curve_absent_fixed", t));
+    let text = text.join(t.get("sentence_gap"));
     let chart = Chart {
         id: &id,
         title: t.get(effort::key(kind, ["fixed_title_evaluations", "fixed_title_time"])),

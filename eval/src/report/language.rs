@@ -129,6 +129,7 @@ mod tests {
             include_str!("critical_difference.rs"),
             include_str!("ecdf.rs"),
             include_str!("ert.rs"),
+            include_str!("evidence.rs"),
             include_str!("families.rs"),
             include_str!("fitness.rs"),
             include_str!("fixed_budget.rs"),

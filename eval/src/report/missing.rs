@@ -5,7 +5,7 @@ use minijinja::{Value, context};
 use super::data_table::{number, planner_row, row, table, words};
 use super::language::Strings;
 use crate::format;
-use crate::results::{Results, RunRecord, RunStatus};
+use crate::results::{Results, RunRecord, RunStatus, SceneSet};
 
 /// Why there is no valid path, in the order of the columns.
 const REASONS: [&str; 7] = [
@@ -34,10 +34,11 @@ fn reason(run: &RunRecord) -> usize {
 struct Lack {
     planner: usize,
     scene: usize,
+    set: SceneSet,
     counts: [usize; REASONS.len()],
 }
 
-/// Every planner and scene of which something is missing, sorted by planner.
+/// Every planner and scene of which something is missing, sorted by planner, test scenes first.
 fn lacks(results: &Results) -> Vec<Lack> {
     let mut all = Vec::new();
     for (planner, p) in results.planners.iter().enumerate() {
@@ -53,7 +54,10 @@ fn lacks(results: &Results) -> Vec<Lack> {
             }
         }
         let lacking = counts.into_iter().enumerate().filter(|(_, c)| c.iter().any(|n| *n > 0));
-        all.extend(lacking.map(|(scene, counts)| Lack { planner, scene, counts }));
+        let mut lacking: Vec<Lack> =
+            lacking.map(|(scene, counts)| Lack { planner, scene, set: results.scenes[scene].set, counts }).collect();
+        lacking.sort_by_key(|l| l.set == SceneSet::Tuning);
+        all.append(&mut lacking);
     }
     all
 }
@@ -66,15 +70,27 @@ pub fn figure(results: &Results, t: &Strings) -> Option<Value> {
     }
     let used: Vec<usize> = (0..REASONS.len()).filter(|k| lacks.iter().any(|l| l.counts[*k] > 0)).collect();
     let count = |n: usize| number(if n == 0 { format::NONE.to_owned() } else { format::count(n as f64) }, n as f64);
+    // What is missing in tuning scenes is no evidence: it is told apart, where there are any.
+    let sets = results.scenes.iter().any(|s| s.set == SceneSet::Tuning);
+    let set = |set: SceneSet| {
+        let key = if set == SceneSet::Tuning { "set_tuning" } else { "set_test" };
+        sets.then(|| words(t.get(key)))
+    };
     let heads = |first: &[&'static str]| -> Vec<String> {
         let reasons = used.iter().map(|k| t.get(REASONS[*k]).to_owned());
-        first.iter().map(|key| t.get(key).to_owned()).chain(reasons).chain([t.get("missing_of").to_owned()]).collect()
+        let first = first.iter().filter(|key| sets || **key != "missing_set");
+        first.map(|key| t.get(key).to_owned()).chain(reasons).chain([t.get("missing_of").to_owned()]).collect()
     };
-    let by_planner = lacks.chunk_by(|a, b| a.planner == b.planner).map(|group| {
+    let by_planner = lacks.chunk_by(|a, b| (a.planner, a.set) == (b.planner, b.set)).map(|group| {
         let p = group[0].planner;
         let sum = |k: &usize| group.iter().map(|l| l.counts[*k]).sum::<usize>();
-        let planned = results.scenes.len() * results.repeats as usize;
-        let cells = [count(group.len())].into_iter().chain(used.iter().map(|k| count(sum(k)))).chain([count(planned)]);
+        let of_set = results.scenes.iter().filter(|s| s.set == group[0].set).count();
+        let planned = of_set * results.repeats as usize;
+        let cells = set(group[0].set)
+            .into_iter()
+            .chain([count(group.len())])
+            .chain(used.iter().map(|k| count(sum(k))))
+            .chain([count(planned)]);
         planner_row(&results.planners[p].label, p, cells.collect())
     });
     let by_planner = by_planner.collect();
@@ -82,7 +98,7 @@ pub fn figure(results: &Results, t: &Strings) -> Option<Value> {
         let cells =
             [words(results.planners[l.planner].label.as_str()), words(results.scenes[l.scene].scene.name.as_str())];
         let counts = used.iter().map(|k| count(l.counts[*k])).chain([count(results.repeats as usize)]);
-        row(cells.into_iter().chain(counts).collect())
+        row(cells.into_iter().chain(set(l.set)).chain(counts).collect())
     });
     let by_scene: Vec<Value> = by_scene.collect();
     let as_table = |id: &str, caption: &str, heads: &[String], rows: Vec<Value>| {
@@ -90,7 +106,7 @@ pub fn figure(results: &Results, t: &Strings) -> Option<Value> {
     };
     let scenes = results.scenes.len() > 1;
     Some(context! {
-        planners => as_table("missing-planners", t.get("missing_title"), &heads(&["head_planner", "missing_scenes"]), by_planner),
-        scenes => scenes.then(|| as_table("missing-scenes", t.get("missing_title"), &heads(&["head_planner", "section_scene"]), by_scene)),
+        planners => as_table("missing-planners", t.get("missing_title"), &heads(&["head_planner", "missing_set", "missing_scenes"]), by_planner),
+        scenes => scenes.then(|| as_table("missing-scenes", t.get("missing_title"), &heads(&["head_planner", "section_scene", "missing_set"]), by_scene)),
     })
 }

@@ -125,10 +125,10 @@ fn statistics(evidence: &Evidence<'_>, t: &Strings) -> Value {
         [Effort::Evaluations, Effort::Time].into_iter().filter_map(figure).collect()
     };
     let tuning = evidence.results.scenes.len() - evidence.grid.scenes.len();
-    let scenes = t.plural(evidence.grid.scenes.len(), "scenes_one", "scenes");
+    let scenes = t.plural(evidence.scenes().len(), "scenes_one", "scenes");
     let mut scope = t.fill(
         if tuning > 0 { "scope_tuning" } else { "scope" },
-        &[("scenes", &scenes), ("tuning", &tuning.to_string())],
+        &[("scenes", &scenes), ("tuning", &t.plural(tuning, "tuning_scenes_one", "tuning_scenes"))],
     );
     if evidence.quality.measure == Measure::Length && evidence.grid.scenes.len() > 1 {
         scope += t.get("sentence_gap");

@@ -5,6 +5,7 @@ use minijinja::Value;
 use super::data_table::{number, planner_row, table, words};
 use super::evidence::Evidence;
 use super::language::Strings;
+use crate::analysis::{counted_cost, counted_length};
 use crate::format;
 use crate::results::RunRecord;
 
@@ -27,15 +28,15 @@ pub fn figure(evidence: &Evidence<'_>, t: &Strings) -> Option<Value> {
             }
         }
         let terms = names.iter().map(|name| {
-            let value = typical(p, &|r| r.term(name).unwrap_or(f64::INFINITY));
+            let term = |r: &RunRecord| r.term(name).filter(|_| r.valid).unwrap_or(f64::INFINITY);
+            let value = typical(p, &term);
             format!("{name} {}", format::significant(value, 5))
         });
         let terms = terms.collect::<Vec<_>>().join(" · ");
-        let infinite = |v: Option<f64>| v.unwrap_or(f64::INFINITY);
-        let length = typical(p, &|r| if r.valid { infinite(r.length) } else { f64::INFINITY });
+        let length = typical(p, &counted_length);
         let number = |v: f64| number(format::length(v), v);
         let terms = words(if terms.is_empty() { format::NONE.to_owned() } else { terms });
-        planner_row(evidence.label(p), p, vec![number(length), number(typical(p, &|r| infinite(r.cost))), terms])
+        planner_row(evidence.label(p), p, vec![number(length), number(typical(p, &counted_cost)), terms])
     });
     let heads = [t.get("head_planner"), t.get("head_length"), t.get("own_cost"), t.get("own_terms")];
     Some(table("own-table", t.get("own_objective_title"), &heads, rows.collect()))

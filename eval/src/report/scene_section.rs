@@ -166,6 +166,10 @@ pub fn spread(results: &Results, scenes: &[&SceneResult], id: &str, t: &Strings)
     } else {
         t.plural(runs, "length_text_one", "length_text")
     };
+    if scenes.len() > 1 {
+        text += t.get("sentence_gap");
+        text += t.get("strip_pooled");
+    }
     let shown: usize = rows.iter().map(|r| r.values.len()).sum();
     let left = results.runs.iter().filter(|r| scenes.iter().any(|s| s.scene.name == r.scene)).count() - shown;
     if left > 0 {
@@ -183,7 +187,11 @@ pub fn times(results: &Results, scene: Option<&str>, id: &str, t: &Strings) -> O
     let wanted = |r: &RunRecord| scene.map_or_else(|| !tuning(&r.scene), |s| r.scene == s);
     let rows = rows(results, wanted, &|r| r.time_us);
     let runs = rows.iter().map(|r| r.values.len()).max().unwrap_or(0);
-    let text = t.plural(runs, "time_text_one", "time_text");
+    let mut text = t.plural(runs, "time_text_one", "time_text");
+    if scene.is_none() {
+        text += t.get("sentence_gap");
+        text += t.get("strip_pooled");
+    }
     let (title, axis) = (t.get("time_title"), t.get("time_axis"));
     strip::figure(&rows, &strip::Kind { id, title, axis, text: &text, number: format::time, floor: 1e-3 }, t)
 }
@@ -193,9 +201,10 @@ fn rows<'a>(
     keep: impl Fn(&RunRecord) -> bool,
     value: &dyn Fn(&RunRecord) -> f64,
 ) -> Vec<Row<'a>> {
-    let of = |label: &str| {
-        let values = results.runs_of(label, None).filter(|r| keep(r)).map(value);
-        values.map(|v| if v.is_nan() { f64::INFINITY } else { v }).collect()
+    let of = |(index, label): (usize, &'a str)| {
+        let runs: Vec<&RunRecord> = results.runs_of(label, None).filter(|r| keep(r)).collect();
+        let values = runs.iter().map(|r| value(r)).map(|v| if v.is_nan() { f64::INFINITY } else { v }).collect();
+        Row { label, index, values, failed: runs.iter().filter(|r| !r.valid).count() }
     };
-    results.planners.iter().enumerate().map(|(index, p)| Row { label: &p.label, index, values: of(&p.label) }).collect()
+    results.planners.iter().map(|p| p.label.as_str()).enumerate().map(of).collect()
 }

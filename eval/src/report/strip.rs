@@ -10,7 +10,7 @@ use super::svg::escape;
 use super::{axis::Axis, chart, palette};
 use crate::statistics::quantile;
 
-/// The values of one planner, +∞ for failures.
+/// The values of one planner; +∞ for failures, except of times.
 pub struct Row<'a> {
     /// Label of the planner.
     pub label: &'a str,
@@ -18,6 +18,8 @@ pub struct Row<'a> {
     pub index: usize,
     /// One value a run.
     pub values: Vec<f64>,
+    /// Runs without a valid path.
+    pub failed: usize,
 }
 
 /// What a strip chart says besides its rows.
@@ -89,10 +91,9 @@ pub fn figure(rows: &[Row<'_>], kind: &Kind<'_>, t: &Strings) -> Option<Value> {
         .map(|row| {
             let cells: Vec<String> =
                 [0.0, 0.25, 0.5, 0.75, 1.0].iter().filter_map(|q| quantile(&row.values, *q)).map(kind.number).collect();
-            let failed = row.values.iter().filter(|v| v.is_infinite()).count();
             context! {
                 label => row.label, swatch => Value::from_safe_string(palette::swatch(row.index)),
-                cells, failed, runs => row.values.len(),
+                cells, failed => row.failed, runs => row.values.len(),
             }
         })
         .collect();

@@ -523,7 +523,7 @@ fn tuning_scenes_are_kept_apart() {
     let page = html(&results, Language::English);
     check(&page);
     assert!(page.contains("Kept apart: 1 scene on which settings were chosen (two)."));
-    assert!(page.contains("Over 2 scenes that the planners are compared on; 1 tuning scenes are left out."));
+    assert!(page.contains("Over 2 scenes that the planners are compared on; without 1 tuning scene."));
     assert_eq!(page.matches("A tuning scene: settings were chosen on it").count(), 1);
     let table = page.split_once("id=\"overall-table\"").unwrap().1.split_once("</table>").unwrap().0;
     assert!(table.contains("20&#x2f;20"), "{table}");
@@ -574,6 +574,150 @@ fn variants_and_budgets_are_set_side_by_side() {
     assert!(page.contains("Variants of pso"));
     let variants = page.split_once("id=\"variants-0\"").unwrap().1.split_once("</table>").unwrap().0;
     assert_eq!(variants.matches("<tr>").count(), 3, "a head and two variants");
+}
+
+#[test]
+fn the_entry_answers_for_each_count_budget() {
+    let labels = ["a[10 evaluations]", "a[1000 evaluations]", "quick", "quick-2"];
+    let mut results = results(&labels, &["one", "two"], 3);
+    for (p, (group, budget)) in results.planners.iter_mut().zip([("a", 10), ("a", 1000), ("q", 1000), ("q", 1000)]) {
+        (p.group, p.budget.evaluations) = (group.to_owned(), Some(budget));
+    }
+    // The last two need 4 evaluations of their 1000; the other 1000 are spent for a better path.
+    for r in &mut results.runs {
+        r.progress.clear();
+        (r.evaluations, r.length) = match r.planner.as_str() {
+            "a[10 evaluations]" => (10, Some(10.9)),
+            "a[1000 evaluations]" => (1000, Some(10.05)),
+            "quick" => (4, Some(10.5)),
+            _ => (4, Some(10.6)),
+        };
+        (r.valid, r.cost, r.gap) = (true, r.length, r.length.map(|l| l / 10.0 - 1.0));
+    }
+    let page = html(&results, Language::English);
+    check(&page);
+    let best = |question: &str| {
+        let answer = page.split_once(&format!("<dt>{question}</dt>")).expect(question).1.split_once("</dd>").unwrap().0;
+        labels.iter().copied().filter(|l| answer.contains(&format!("<span>{l}</span>"))).collect::<Vec<_>>()
+    };
+    assert_eq!(best("Best within 10 evaluations"), ["quick"]);
+    assert_eq!(best("Best within 1000 evaluations"), ["a[1000 evaluations]"]);
+    assert_eq!(best("Fastest good planner"), ["a[1000 evaluations]"], "no other is within 1 %");
+    let budgets = page.split_once("id=\"budgets-table\"").unwrap().1.split_once("</table>").unwrap().0;
+    let row = |budget: &str| budgets.split_once(&format!(">{budget}<")).unwrap().1.split_once("</tr>").unwrap().0;
+    assert!(row("10 evaluations").contains("quick: 5") && row("10 evaluations").contains(">nobody<"), "{budgets}");
+    assert!(row("1000 evaluations").contains("a[1000 evaluations]: 0.5"), "{budgets}");
+    let quotes = page.split_once("<ul class=\"quotes\">").unwrap().1.split_once("</ul>").unwrap().0;
+    assert_eq!(quotes.matches("<li>").count(), 2, "one of each group: {quotes}");
+}
+
+/// What stands between two marks.
+fn between<'a>(page: &'a str, from: &str, to: &str) -> &'a str {
+    page.split_once(from).expect(from).1.split_once(to).expect(to).0
+}
+
+/// The cells of the row about `label` in a table.
+fn cells(table: &str, label: &str) -> Vec<String> {
+    let row = table.split("<tr>").find(|r| r.contains(&format!("<span>{label}</span>"))).expect(label);
+    row.split("<td ").skip(1).map(|c| between(c, ">", "<").to_owned()).collect()
+}
+
+fn fail(run: &mut RunRecord, status: RunStatus, error: Option<&str>) {
+    (run.valid, run.gap, run.status) = (false, None, status);
+    run.error = error.map(str::to_owned);
+}
+
+#[test]
+fn failures_in_tuning_scenes_are_told_apart() {
+    let mut results = results(&["a", "b"], &["one", "two", "three"], 3);
+    results.scenes[0].set = SceneSet::Tuning;
+    for r in results.runs.iter_mut().filter(|r| r.planner == "b" && (r.scene == "one" || r.repeat == 0)) {
+        fail(r, RunStatus::NotFound, Some("the path ends at (9, 0) instead of (10, 0)"));
+    }
+    let page = html(&results, Language::English);
+    check(&page);
+    let table = between(&page, "id=\"missing-planners\"", "</table>");
+    let rows: Vec<Vec<String>> = table
+        .split("<tr>")
+        .skip(2)
+        .map(|row| row.split("<td ").skip(1).map(|c| between(c, ">", "<").to_owned()).collect())
+        .collect();
+    // Set, scenes with any, invalid paths, of.
+    assert_eq!(rows, [["test", "2", "2", "6"], ["tuning", "1", "3", "3"]], "{table}");
+    let worst = between(&page, "id=\"worst\"", "id=\"missing\"");
+    assert!(worst.contains("not found: the path ends at (9, 0) instead of (10, 0)"), "{worst}");
+    let scenes: Vec<&str> = worst.split("class=\"where\"").skip(1).map(|c| between(c, "\">", "</p>")).collect();
+    let first_tuning = scenes.iter().position(|s| s.contains("tuning")).expect("marked");
+    assert!(first_tuning > 0 && scenes[..first_tuning].iter().all(|s| !s.contains("one")), "{scenes:?}");
+    assert!(scenes[first_tuning..].iter().all(|s| s.contains("one")), "{scenes:?}");
+    results.scenes[0].set = SceneSet::Test;
+    let page = html(&results, Language::English);
+    assert!(!between(&page, "id=\"missing-planners\"", "</table>").contains("set of scenes"));
+}
+
+#[test]
+fn scenes_without_runs_are_not_counted() {
+    let mut results = results(&["a", "b"], &["wall-0", "wall-1", "wall-2", "dense-0"], 3);
+    results.runs.retain(|r| r.scene == "wall-0" || r.scene == "wall-2");
+    let page = html(&results, Language::English);
+    check(&page);
+    assert!(page.contains("Over 2 scenes."));
+    assert!(!page.contains("wall (3)"));
+    results.scenes[0].scene.name = "dense-1".to_owned();
+    results.runs.iter_mut().filter(|r| r.scene == "wall-0").for_each(|r| r.scene = "dense-1".to_owned());
+    results.runs.extend((0..3).map(|k| run("wall-1", "a", k, Some(11.0))));
+    let page = html(&results, Language::English);
+    let families = between(&page, "id=\"families-table\"", "</table>");
+    assert!(families.contains("wall (2)") && families.contains(">dense-1<"), "{families}");
+}
+
+#[test]
+fn failures_count_as_the_worst_in_every_table() {
+    let one = html(&results(&["a"], &["one"], 3), Language::English);
+    assert!(!one.contains("box and bar are of these runs"), "of one scene nothing is pooled");
+    let mut results = results(&["a", "b"], &["one", "two"], 3);
+    for r in results.runs.iter_mut().filter(|r| r.planner == "b") {
+        fail(r, RunStatus::NotFound, None);
+        r.terms = vec![("bend".to_owned(), 2.5)];
+    }
+    let page = html(&results, Language::English);
+    check(&page);
+    let own = between(&page, "id=\"own-table\"", "</table>");
+    assert_eq!(cells(own, "b"), ["∞", "∞", "bend ∞"], "{own}");
+    assert!(cells(own, "a")[1].starts_with("10.1"), "{own}");
+    let times = between(&page, "id=\"all-time-t\"", "</table>");
+    let b = cells(times, "b");
+    assert_eq!(b[b.len() - 2..], ["6", "6"], "failed and runs: {b:?}");
+    let a = cells(times, "a");
+    assert_eq!(a[a.len() - 2..], ["0", "6"], "{a:?}");
+    assert_eq!(page.matches("box and bar are of these runs").count() % 2, 0, "in captions and descriptions");
+    assert!(page.contains("box and bar are of these runs"));
+}
+
+#[test]
+fn captions_name_who_is_charged_or_absent() {
+    let all_well = html(&results(&["a", "b"], &["one"], 3), Language::English);
+    assert!(!all_well.contains("charged the whole run") && !all_well.contains("Not in the figure"));
+    let mut results = results(&["curve", "silent", "never"], &["one", "two"], 3);
+    for r in &mut results.runs {
+        match r.planner.as_str() {
+            "silent" => r.progress.clear(),
+            "never" => fail(r, RunStatus::NotFound, None),
+            _ => {}
+        }
+    }
+    let page = html(&results, Language::English);
+    check(&page);
+    let charged = "they are charged the whole run: silent.";
+    for (figure, absent) in [
+        ("ecdf-evaluations", "because they reach no target: never."),
+        ("ert-time", "because they reach no target: never."),
+        ("fixed-evaluations", "stay without a valid path: never."),
+    ] {
+        let chart = between(&page, &format!("id=\"{figure}\""), "</section>");
+        let caption = between(chart, "<figcaption>", "</figcaption>");
+        assert!(caption.contains(charged) && caption.contains(absent), "{figure}: {caption}");
+    }
 }
 
 #[test]

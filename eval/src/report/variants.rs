@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use minijinja::{Value, context};
 
-use super::answers::Answer;
+use super::answers::{self, Answer};
 use super::data_table::{number, planner_row, row, table, with_interval, words};
 use super::evidence::Evidence;
 use super::language::Strings;
 use super::phrases;
-use crate::analysis::Measure;
+use crate::analysis::{Effort, Measure};
 use crate::config::BudgetSpec;
 use crate::format;
 
@@ -28,23 +28,27 @@ pub fn budgets(evidence: &Evidence<'_>, t: &Strings) -> Option<Value> {
     }
     let scenes = evidence.scenes();
     let rows = all.iter().map(|(budget, members)| {
-        let least = |value: &dyn Fn(usize) -> Option<f64>, measure: Measure| {
-            let values: Vec<(usize, f64)> = members.iter().filter_map(|p| Some((*p, value(*p)?))).collect();
-            let best = values.iter().filter(|v| v.1.is_finite()).min_by(|a, b| a.1.total_cmp(&b.1))?;
-            Some(Answer { planners: vec![best.0], figure: (best.1, None), measure }.text(evidence, t))
+        let shown = |answer: Option<Answer>| words(answer.map_or(t.get("nobody").to_owned(), |a| a.text(evidence, t)));
+        // Whoever needs less than a number of evaluations is within it, whatever its own limit.
+        let count = (*budget == BudgetSpec { evaluations: budget.evaluations, ..BudgetSpec::default() })
+            .then_some(budget.evaluations)
+            .flatten();
+        let spent = |p: usize| evidence.grid.runs_in(p, None).map(|r| r.evaluations).max();
+        let inside = |p: usize| members.contains(&p) || count.is_some_and(|n| spent(p).is_some_and(|most| most <= n));
+        let best = match count {
+            Some(n) if !evidence.curves.scenes().is_empty() => {
+                answers::within(evidence, &scenes, Effort::Evaluations, n as f64)
+            }
+            _ => answers::best(evidence, &scenes, &inside),
         };
-        let quality = |p: usize| evidence.quality_of(p, &scenes).map(|q| q.median);
-        let mostly = |p: usize| quality(p).filter(|q| q.is_finite());
-        let time = |p: usize| mostly(p).and_then(|_| evidence.time_of(p, &scenes)).map(|time| time.median);
-        let shown = |answer: Option<String>| words(answer.unwrap_or_else(|| t.get("nobody").to_owned()));
         row(vec![
             words(words_of(*budget, t)),
-            shown(least(&quality, evidence.quality.measure)),
-            shown(least(&time, Measure::Time)),
+            shown(best),
+            shown(answers::fastest(evidence, &scenes, &inside)),
             number(members.len().to_string(), members.len() as f64),
         ])
     });
-    let heads = [t.get("variants_budget"), t.get("answer_best"), t.get("budgets_fastest"), t.get("budgets_planners")];
+    let heads = [t.get("variants_budget"), t.get("answer_best"), t.get("answer_fastest"), t.get("budgets_planners")];
     Some(table("budgets-table", t.get("budgets_title"), &heads, rows.collect()))
 }
 

@@ -1,6 +1,8 @@
 //! The worst cases: runs that failed, paths that go through something, and the largest gaps.
 //!
-//! One a planner and kind, so that one planner's failures do not hide another's.
+//! One a planner and kind, so that one planner's failures do not hide another's; tuning scenes come last.
+
+use std::collections::BTreeSet;
 
 use env_model::World;
 use minijinja::{Value, context};
@@ -13,7 +15,7 @@ use super::planner_card::{Stage, one_run};
 use super::{replay_command, scene_anchor};
 use crate::config::scene_files;
 use crate::format;
-use crate::results::{Results, RunRecord, RunStatus};
+use crate::results::{Results, RunRecord, RunStatus, SceneSet};
 
 /// Cases drawn.
 const DRAWN: usize = 12;
@@ -41,6 +43,7 @@ struct Case<'a> {
     badness: f64,
     run: &'a RunRecord,
     planner: usize,
+    tuning: bool,
 }
 
 fn judge(run: &RunRecord) -> Option<(Kind, f64)> {
@@ -58,21 +61,24 @@ fn judge(run: &RunRecord) -> Option<(Kind, f64)> {
     }
 }
 
-/// Each planner's worst run of each kind; of equals the first.
+/// Each planner's worst run of each kind, in test scenes and in tuning scenes; of equals the first.
 fn cases(results: &Results) -> Vec<Case<'_>> {
+    let tuning_scenes: BTreeSet<&str> =
+        results.scenes.iter().filter(|s| s.set == SceneSet::Tuning).map(|s| s.scene.name.as_str()).collect();
     let mut cases: Vec<Case<'_>> = Vec::new();
     for (planner, info) in results.planners.iter().enumerate() {
         let first = cases.len();
         for run in results.runs_of(&info.label, None) {
             let Some((kind, badness)) = judge(run) else { continue };
-            match cases[first..].iter_mut().find(|c| c.kind == kind) {
+            let tuning = tuning_scenes.contains(run.scene.as_str());
+            match cases[first..].iter_mut().find(|c| c.kind == kind && c.tuning == tuning) {
                 Some(known) if badness > known.badness => (known.run, known.badness) = (run, badness),
                 Some(_) => {}
-                None => cases.push(Case { kind, badness, run, planner }),
+                None => cases.push(Case { kind, badness, run, planner, tuning }),
             }
         }
     }
-    cases.sort_by(|a, b| a.kind.cmp(&b.kind).then(b.badness.total_cmp(&a.badness)));
+    cases.sort_by(|a, b| (a.tuning, a.kind).cmp(&(b.tuning, b.kind)).then(b.badness.total_cmp(&a.badness)));
     cases
 }
 
@@ -111,7 +117,7 @@ pub fn figure(results: &Results, t: &Strings) -> Option<Value> {
         Some(context! {
             label => results.planners[case.planner].label.as_str(), swatch => swatch(case.planner),
             anchor => format!("worst-{n}"), scene => case.run.scene.as_str(), href => scene_anchor(scene),
-            svg => Value::from_safe_string(svg), text, command, all_runs,
+            svg => Value::from_safe_string(svg), text, command, all_runs, tuning => case.tuning,
         })
     });
     let drawn: Vec<Value> = drawn.collect();
@@ -120,7 +126,7 @@ pub fn figure(results: &Results, t: &Strings) -> Option<Value> {
         let (scene, text, command, all_runs) = describe(case)?;
         Some(context! {
             label => results.planners[case.planner].label.as_str(), swatch => swatch(case.planner),
-            scene => case.run.scene.as_str(), href => scene_anchor(scene), text, command, all_runs,
+            scene => case.run.scene.as_str(), href => scene_anchor(scene), text, command, all_runs, tuning => case.tuning,
         })
     });
     Some(context! { drawn, rest => rest.collect::<Vec<_>>(), more })
@@ -130,17 +136,17 @@ pub fn figure(results: &Results, t: &Strings) -> Option<Value> {
 fn words(case: &Case<'_>, results: &Results, scene: usize, t: &Strings) -> String {
     let run = case.run;
     let unit = results.scenes[scene].scene.unit.as_str();
-    let what = match case.kind {
-        Kind::Failed => {
-            let status = t.get(&format!("status_{}", run.status.name())).to_owned();
-            run.error.as_ref().map_or(status.clone(), |message| format!("{status}: {message}"))
-        }
-        Kind::Invalid => {
+    let status = || t.get(&format!("status_{}", run.status.name())).to_owned();
+    let what = match (case.kind, run.error.as_deref()) {
+        // Of a path that ends elsewhere the message says more than its depth.
+        (Kind::Failed | Kind::Invalid | Kind::NoPath, Some(message)) => format!("{}: {message}", status()),
+        (Kind::Failed, None) => status(),
+        (Kind::Invalid, None) => {
             let depth = format::significant(case.badness.max(0.0), 3);
             t.fill("worst_invalid", &[("depth", &depth), ("unit", unit)])
         }
-        Kind::NoPath => t.fill("worst_no_path", &[("status", t.get(&format!("status_{}", run.status.name())))]),
-        Kind::Gap => t.fill("worst_gap", &[("gap", &format::percent(case.badness))]),
+        (Kind::NoPath, None) => t.fill("worst_no_path", &[("status", &status())]),
+        (Kind::Gap, _) => t.fill("worst_gap", &[("gap", &format::percent(case.badness))]),
     };
     let which = t.fill("worst_run", &[("repeat", &run.repeat.to_string()), ("seed", &run.seed.to_string())]);
     which + t.get("sentence_gap") + &what
@@ -168,7 +174,7 @@ mod tests {
     use crate::report::tests::run;
 
     fn case(kind: Kind, run: &RunRecord) -> Case<'_> {
-        Case { kind, badness: 0.0, run, planner: 0 }
+        Case { kind, badness: 0.0, run, planner: 0, tuning: false }
     }
 
     #[test]
