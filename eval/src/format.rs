@@ -81,16 +81,16 @@ pub fn share_interval(low: f64, high: f64) -> String {
     format!("{}–{}\u{a0}%", text(low, digits), text(high, digits))
 }
 
-/// A ratio as percent for a tick: powers of ten beyond four digits as such.
+/// A ratio as percent for a tick: long powers of ten as such.
 pub fn percent_tick(ratio: f64) -> String {
     power(100.0 * ratio).map_or_else(|| percent(ratio), |power| format!("{power}\u{a0}%"))
 }
 
-/// 10ⁿ for a power of ten with |n| > 3, else `None`.
+/// 10ⁿ for a power of ten with n > 3 or n < −2, where plain decimals are the longer ones, else `None`.
 pub fn power(value: f64) -> Option<String> {
     let exponent = value.log10();
     let whole = exponent.round();
-    (value > 0.0 && (exponent - whole).abs() < 1e-9 && whole.abs() > 3.0)
+    (value > 0.0 && (exponent - whole).abs() < 1e-9 && !(-2.0..=3.0).contains(&whole))
         .then(|| format!("10{}", format!("{whole:.0}").chars().map(superscript).collect::<String>()))
 }
 
@@ -171,6 +171,7 @@ mod tests {
         assert_eq!(percent(f64::INFINITY), "∞");
         assert_eq!(percent_tick(1e-7), "10⁻⁵\u{a0}%");
         assert_eq!(percent_tick(0.001), "0.1\u{a0}%");
+        assert_eq!(percent_tick(1e-5), "10⁻³\u{a0}%");
         assert_eq!(percent_tick(1000.0), "10⁵\u{a0}%");
     }
 
