@@ -49,21 +49,21 @@ pub(crate) fn counted_cost(run: &RunRecord) -> f64 {
 ///
 /// Failures are +∞ in every median.
 pub fn summarise(results: &Results, planner: &str, scene: Option<&str>) -> Option<Summary> {
+    let info = results.planners.iter().find(|p| p.label == planner)?;
+    let evaluations = Evaluations::of(info, results.runs_of(planner, None));
     let Some(scene) = scene else {
         let tests = results.scenes.iter().filter(|s| s.set == SceneSet::Test);
-        let scenes: Vec<Summary> = tests.filter_map(|s| in_scene(results, planner, s)).collect();
+        let scenes: Vec<Summary> = tests.filter_map(|s| in_scene(results, planner, s, evaluations)).collect();
         return over_scenes(planner, &scenes);
     };
-    in_scene(results, planner, results.scenes.iter().find(|s| s.scene.name == scene)?)
+    in_scene(results, planner, results.scenes.iter().find(|s| s.scene.name == scene)?, evaluations)
 }
 
-fn in_scene(results: &Results, planner: &str, scene: &SceneResult) -> Option<Summary> {
+fn in_scene(results: &Results, planner: &str, scene: &SceneResult, evaluations: Evaluations) -> Option<Summary> {
     let name = &scene.scene.name;
     let runs: Vec<&RunRecord> = results.runs_of(planner, Some(name)).collect();
     let of = |f: &dyn Fn(&RunRecord) -> f64| runs.iter().map(|r| f(r)).collect::<Vec<f64>>();
     let lengths = of(&counted_length);
-    let info = results.planners.iter().find(|p| p.label == planner)?;
-    let evaluations = Evaluations::of(info, results.runs_of(planner, None));
     let gaps = scene.optimum.length.map(|_| of(&|r| r.gap.unwrap_or(f64::INFINITY)));
     Some(Summary {
         planner: planner.to_owned(),

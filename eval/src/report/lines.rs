@@ -96,13 +96,17 @@ fn draw(line: &Line<'_>, join: Join, bands: bool, x: &Axis, y: &Axis) -> String 
             if bands && line.ends.len() > 1 {
                 let side = |k: usize| line.ends.iter().map(move |(p, e)| [x.at(*p), y.at(e[k])]);
                 let (upper, mut lower): (Vec<_>, Vec<_>) = (side(1).collect(), side(0).collect());
-                let upper = steps(&upper);
+                let upper = steps(&upper, false);
                 // Backwards along the same steps: what holds until the next place is drawn as its mirror.
                 lower.reverse();
-                let _ =
-                    write!(out, r#"<path class="band fill {}" d="M{upper}L{}z"/>"#, palette::colour(i), back(&lower));
+                let _ = write!(
+                    out,
+                    r#"<path class="band fill {}" d="M{upper}L{}z"/>"#,
+                    palette::colour(i),
+                    steps(&lower, true)
+                );
             }
-            let _ = write!(out, r#"<path class="{} curve" d="M{}"/>"#, palette::line(i), steps(&drawn));
+            let _ = write!(out, r#"<path class="{} curve" d="M{}"/>"#, palette::line(i), steps(&drawn, false));
         }
         Join::Straight => {
             if bands {
@@ -124,37 +128,22 @@ fn draw(line: &Line<'_>, join: Join, bands: bool, x: &Axis, y: &Axis) -> String 
     out + "</g>"
 }
 
-/// Steps along the points, without those that change nothing one could see.
-fn steps(points: &[[f64; 2]]) -> String {
+/// Steps along the points, without those that change nothing one could see: each value holds to the right of its
+/// place, also where `backwards` goes from right to left.
+fn steps(points: &[[f64; 2]], backwards: bool) -> String {
     let mut out = String::new();
     let Some(([x, y], rest)) = points.split_first() else { return out };
     let _ = write!(out, "{x:.1} {y:.1}");
     let (mut pen, mut last) = (*y, *x);
     for [x, y] in rest {
         if (y - pen).abs() >= 0.05 {
-            let _ = write!(out, "H{x:.1}V{y:.1}");
+            let corner = if backwards { last } else { *x };
+            let _ = write!(out, "H{corner:.1}V{y:.1}");
             pen = *y;
         }
         last = *x;
     }
     let _ = write!(out, "H{last:.1}");
-    out
-}
-
-/// The same from right to left: the earlier value holds up to the later place.
-fn back(points: &[[f64; 2]]) -> String {
-    let mut out = String::new();
-    let Some(([x, y], rest)) = points.split_first() else { return out };
-    let _ = write!(out, "{x:.1} {y:.1}");
-    let (mut pen, mut before) = (*y, *x);
-    for [x, y] in rest {
-        if (y - pen).abs() >= 0.05 {
-            let _ = write!(out, "H{before:.1}V{y:.1}");
-            pen = *y;
-        }
-        before = *x;
-    }
-    let _ = write!(out, "H{before:.1}");
     out
 }
 
@@ -181,8 +170,8 @@ mod tests {
 
     #[test]
     fn bands_go_back_along_their_own_steps() {
-        assert_eq!(steps(&[[0.0, 5.0], [1.0, 5.0], [2.0, 3.0], [4.0, 3.0]]), "0.0 5.0H2.0V3.0H4.0");
-        assert_eq!(back(&[[4.0, 3.0], [2.0, 3.0], [1.0, 5.0], [0.0, 5.0]]), "4.0 3.0H2.0V5.0H0.0");
+        assert_eq!(steps(&[[0.0, 5.0], [1.0, 5.0], [2.0, 3.0], [4.0, 3.0]], false), "0.0 5.0H2.0V3.0H4.0");
+        assert_eq!(steps(&[[4.0, 3.0], [2.0, 3.0], [1.0, 5.0], [0.0, 5.0]], true), "4.0 3.0H2.0V5.0H0.0");
     }
 
     #[test]
