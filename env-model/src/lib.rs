@@ -17,6 +17,7 @@ pub mod grid;
 pub mod import;
 pub mod inflated;
 pub mod influence;
+pub mod motion;
 pub mod probe;
 pub mod risk;
 pub mod scene;

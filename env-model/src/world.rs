@@ -54,6 +54,25 @@ impl World {
         })
     }
 
+    /// The same world with more obstacles after its own, inflated already and unlabelled; its tolerance stays.
+    #[must_use]
+    pub fn with_obstacles(&self, more: impl IntoIterator<Item = Inflated>) -> Self {
+        let mut obstacles = self.obstacles.clone();
+        obstacles.extend(more);
+        let mut labels = self.labels.clone();
+        labels.resize(obstacles.len(), None);
+        let boxes: Vec<Aabb> = obstacles.iter().map(|o| o.aabb().inflated(self.epsilon)).collect();
+        let bvh = Bvh::build(&boxes);
+        Self {
+            near: Near::new(&obstacles, &boxes, &bvh, self.slack()),
+            aabb: boxes.iter().fold(self.aabb, |all, b| all.union(*b)),
+            bvh,
+            obstacles,
+            labels,
+            ..*self
+        }
+    }
+
     /// The inflated obstacles, in the scene's order.
     pub fn obstacles(&self) -> &[Inflated] {
         &self.obstacles

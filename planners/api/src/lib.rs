@@ -5,8 +5,12 @@
 //! plan. Planners do no I/O, start no threads, keep no globals, and read no
 //! clock but through the budget. The same problem, settings, seed and *count*
 //! budget give the same path, bit for bit.
+//!
+//! A [`Controller`] is what moves a robot, frame by frame, among obstacles that move: from a [`Situation`] to a
+//! trajectory.
 
 mod budget;
+mod controller;
 mod error;
 mod observer;
 mod plan;
@@ -17,6 +21,7 @@ pub mod seed;
 mod told;
 
 pub use budget::Budget;
+pub use controller::{ControlError, Controller, Outcome, Situation};
 pub use error::{PlanError, SettingError};
 pub use observer::{
     CellState, CellsView, Detail, ForcesView, Frame, Observer, PopulationView, SwarmView, TreeView, View,

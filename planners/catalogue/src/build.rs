@@ -23,10 +23,12 @@ pub struct Built {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum BuildError {
     /// No planner of that name.
-    #[error("unknown planner \"{kind}\"; expected one of {}", names())]
+    #[error("unknown planner \"{kind}\"; expected one of {}", known.join(", "))]
     UnknownKind {
         /// What was asked for.
         kind: String,
+        /// What there is.
+        known: Vec<&'static str>,
     },
     /// An unknown key or a wrong type.
     #[error("{message}")]
@@ -62,19 +64,17 @@ impl BuildError {
     }
 }
 
-fn names() -> String {
-    kinds().iter().map(|k| k.name).collect::<Vec<_>>().join(", ")
-}
-
 /// Builds the planner `kind` from its TOML table. Of the reserved keys only
 /// `refine` may be present: a list of refiners, `"qp"` or `{ kind = "qp", … }`.
 ///
 /// # Errors
 /// [`BuildError`]; spans refer to the document that `settings` was parsed from.
 pub fn build(kind: &str, settings: Spanned<DeTable<'_>>) -> Result<Built, BuildError> {
-    let entry =
-        kinds().iter().find(|k| k.name == kind).ok_or_else(|| BuildError::UnknownKind { kind: kind.to_owned() })?;
-    let mut settings = Settings { table: settings };
+    let entry = kinds().iter().find(|k| k.name == kind).ok_or_else(|| BuildError::UnknownKind {
+        kind: kind.to_owned(),
+        known: kinds().iter().map(|k| k.name).collect(),
+    })?;
+    let mut settings = Settings::new(settings);
     let refine = settings.take("refine");
     let (mut planner, mut settings) = (entry.make)(settings)?;
     if let Some(refine) = refine {
@@ -92,8 +92,12 @@ pub fn build(kind: &str, settings: Spanned<DeTable<'_>>) -> Result<Built, BuildE
 /// # Errors
 /// [`BuildError`]; spans refer to `settings`.
 pub fn build_str(kind: &str, settings: &str) -> Result<Built, BuildError> {
-    let table = DeTable::parse(settings).map_err(|e| error(e.span().unwrap_or(0..0), e.message()))?;
-    build(kind, table)
+    build(kind, parse(settings)?)
+}
+
+/// Settings as TOML text.
+pub(crate) fn parse(settings: &str) -> Result<Spanned<DeTable<'_>>, BuildError> {
+    DeTable::parse(settings).map_err(|e| error(e.span().unwrap_or(0..0), e.message()))
 }
 
 /// The refiners of a `refine` list and their settings in full.
@@ -140,6 +144,11 @@ pub(crate) struct Settings<'i> {
 }
 
 impl<'i> Settings<'i> {
+    /// The whole table.
+    pub(crate) fn new(table: Spanned<DeTable<'i>>) -> Self {
+        Self { table }
+    }
+
     /// Reads all remaining keys.
     pub(crate) fn parse<T: DeserializeOwned>(self) -> Result<T, BuildError> {
         let span = self.table.span();

@@ -8,9 +8,16 @@
 //! ```
 
 mod build;
+mod controllers;
 mod kinds;
 mod refined;
 
 pub use build::{BuildError, Built, build, build_str};
+pub use controllers::{
+    BuiltController, ControllerKind, build_controller, build_controller_str, controller_names, controllers,
+};
+pub use env_model;
 pub use kinds::{Kind, kinds};
+pub use planner_api as api;
+pub use planner_control as control;
 pub use refined::Refined;

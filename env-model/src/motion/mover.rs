@@ -1,0 +1,108 @@
+//! Obstacles that move.
+
+use super::{MotionError, Piece, State, Trajectory};
+use crate::{Inflated, Point, Vector};
+
+/// Whose a moving obstacle is: who gives way, and how far it can be trusted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// A robot of one's own team, which plans as we do.
+    Mate,
+    /// A robot that does not give way to us.
+    Opponent,
+    /// Anything else (the ball, a referee's foot).
+    Other,
+}
+
+/// How an obstacle is expected to move.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Path<'a> {
+    /// With constant velocity, perhaps none, in units per second.
+    Velocity(Vector),
+    /// As this trajectory does: displaced by what it is displaced since time 0.
+    Trajectory(&'a Trajectory),
+}
+
+/// An obstacle in motion, as seen by one robot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mover<'a> {
+    /// Its shape now, grown by the radius of the robot that sees it, as a world's obstacles are: contact is where
+    /// that robot's centre enters it.
+    pub shape: Inflated,
+    /// Where it goes.
+    pub path: Path<'a>,
+    /// Distance beyond contact that plans should keep, in scene units, ≥ 0. Contact itself knows no margin.
+    pub margin: f64,
+    /// Whose it is.
+    pub side: Side,
+}
+
+impl<'a> Mover<'a> {
+    /// A disc: robots and balls. `radius` is the sum of both radii.
+    pub fn disc(centre: Point, radius: f64, path: Path<'a>, side: Side) -> Self {
+        Self { shape: Inflated { core: crate::Core::Point(centre), radius }, path, margin: 0.0, side }
+    }
+
+    /// The same with a margin.
+    #[must_use]
+    pub fn with_margin(self, margin: f64) -> Self {
+        Self { margin, ..self }
+    }
+
+    /// Checks that its numbers are usable: shape, margin and velocity.
+    ///
+    /// # Errors
+    /// [`MotionError`] names what is not.
+    pub fn check(&self) -> Result<(), MotionError> {
+        let finite = |what, x: f64, y: f64| match x.is_finite() && y.is_finite() {
+            true => Ok(()),
+            false => Err(MotionError::NotFinite { what, x, y }),
+        };
+        MotionError::positive("radius", self.shape.radius)?;
+        if !(self.margin.is_finite() && self.margin >= 0.0) {
+            return Err(MotionError::NotPositive { what: "margin", value: self.margin });
+        }
+        let aabb = self.shape.aabb();
+        finite("shape", aabb.min.x, aabb.min.y)?;
+        finite("shape", aabb.max.x, aabb.max.y)?;
+        let v = self.velocity();
+        finite("velocity", v.x, v.y)
+    }
+
+    /// Its velocity now.
+    pub fn velocity(&self) -> Vector {
+        match self.path {
+            Path::Velocity(v) => v,
+            Path::Trajectory(trajectory) => trajectory.start().velocity,
+        }
+    }
+
+    /// How far it will have moved in `t` seconds.
+    pub fn displacement(&self, t: f64) -> Vector {
+        match self.path {
+            Path::Velocity(v) => v * t,
+            Path::Trajectory(trajectory) => trajectory.state(t).position - trajectory.start().position,
+        }
+    }
+
+    /// Its displacement as pieces, with the times at which they begin; the last one is endless.
+    pub(super) fn displacements(&self) -> impl Iterator<Item = (f64, Piece)> + '_ {
+        let straight = match self.path {
+            Path::Velocity(velocity) => Some((
+                0.0,
+                Piece { duration: f64::INFINITY, position: Point::origin(), velocity, acceleration: Vector::zeros() },
+            )),
+            Path::Trajectory(_) => None,
+        };
+        let timed = match self.path {
+            Path::Velocity(_) => None,
+            Path::Trajectory(trajectory) => {
+                let State { position: from, .. } = trajectory.start();
+                Some(trajectory.timed().map(move |(begin, piece)| {
+                    (begin, Piece { position: Point::from(piece.position - from), ..piece })
+                }))
+            }
+        };
+        straight.into_iter().chain(timed.into_iter().flatten())
+    }
+}

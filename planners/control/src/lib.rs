@@ -1,0 +1,10 @@
+//! What every controller of moving robots has round it: [`Replan`] makes one of any planner, and a [`Guard`] answers
+//! safely whatever the controller does.
+
+mod escape;
+mod guard;
+mod replan;
+
+pub use escape::nearest_free;
+pub use guard::{Answer, Guard, Safety};
+pub use replan::Replan;

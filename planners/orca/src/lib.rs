@@ -1,0 +1,1 @@
+//! ORCA: optimal reciprocal collision avoidance.

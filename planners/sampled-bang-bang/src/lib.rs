@@ -1,0 +1,1 @@
+//! Sampled bang-bang trajectories, checked in time.

@@ -1,0 +1,1 @@
+//! Space-time A* over safe intervals (SIPP).
