@@ -92,9 +92,9 @@ impl Polynomial {
                 return t;
             }
             if (f < 0.0) == (fa < 0.0) {
-                a = t
+                a = t;
             } else {
-                b = t
+                b = t;
             }
             let newton = t - f / slope.at(t);
             let middle = 0.5 * (a + b);
