@@ -1,5 +1,7 @@
 //! Robots that drive among each other, each following its own trajectory exactly for one frame at a time.
 
+pub mod contract;
+
 use std::f64::consts::TAU;
 
 use env_model::motion::{Limits, Mover, Path, Side, State, Trajectory, contact};
