@@ -2,9 +2,11 @@
 //! safely whatever the controller does.
 
 mod escape;
+mod foresight;
 mod guard;
 mod replan;
 
 pub use escape::nearest_free;
+pub use foresight::Foresight;
 pub use guard::{Answer, Guard, Safety};
 pub use replan::Replan;
