@@ -54,8 +54,8 @@ fn every_planner_takes_over_from_every_other() {
 #[test]
 fn a_team_that_brakes_in_time_never_collides_whoever_plans() {
     let settings = Settings {
-        robots: 5,
-        duration_s: 3.0,
+        robots: 4,
+        duration_s: 2.0,
         cooperation: Cooperation::Priority,
         emergency_brake: true,
         ..Settings::default()
