@@ -9,8 +9,10 @@ use super::axis::{Phases, quickest, time};
 use super::{Limits, State, Trajectory};
 use crate::{Point, Vector};
 
-/// Halvings of the range of α: below the rounding of arrival times.
-const HALVINGS: usize = 40;
+/// Steps of the search for α at most; six or so are enough but for the oddest motions.
+const STEPS: usize = 60;
+/// Difference of the axes' arrivals, over their sum, at which the search ends: a robot's clock is not as good.
+const TOGETHER: f64 = 1e-13;
 
 /// Brakes as hard as possible from where `trajectory` ends now until it stands.
 pub(super) fn stop(trajectory: &mut Trajectory, limits: Limits) {
@@ -39,26 +41,68 @@ pub fn bang_bang(state: State, goal: Point, limits: Limits, out: &mut Trajectory
     slow_down(out, limits.speed, limits);
     let from = out.end();
     let (d, v) = (goal - from.position, from.velocity);
-    // cos α ≥ |vₓ|/speed and sin α ≥ |v_y|/speed; the ends meet at full speed.
-    let [x, y] = [v.x, v.y].map(|v| (v.abs() / limits.speed).min(1.0));
-    let (mut low, mut high) = (libm::asin(y), libm::acos(x).max(libm::asin(y)));
-    let shares = |alpha: f64| [libm::cos(alpha), libm::sin(alpha)].map(|share: f64| share.max(1e-9));
-    let axis = |i: usize, share: f64| (d[i], v[i], share * limits.speed, share * limits.acceleration);
-    for _ in 0..HALVINGS {
-        let alpha = 0.5 * (low + high);
-        let [tx, ty] = std::array::from_fn(|i| {
-            let (d, v, speed, acceleration) = axis(i, shares(alpha)[i]);
-            time(d, v, speed, acceleration)
-        });
-        if tx > ty { high = alpha } else { low = alpha }
-    }
-    let alpha = 0.5 * (low + high);
-    let phases: [Phases; 2] = std::array::from_fn(|i| {
-        let (d, v, speed, acceleration) = axis(i, shares(alpha)[i]);
-        quickest(d, v, speed, acceleration)
-    });
+    let shares = shares(d, v, limits);
+    let phases: [Phases; 2] =
+        std::array::from_fn(|i| quickest(d[i], v[i], shares[i] * limits.speed, shares[i] * limits.acceleration));
     merge(phases, out);
     out.end_at(State::at_rest(goal));
+}
+
+/// cos α and sin α, with which both axes arrive together, as nearly as their speeds at the start allow.
+fn shares(d: Vector, v: Vector, limits: Limits) -> [f64; 2] {
+    // By u = sin α/(sin α + cos α), which needs no sine, and is as fine near 0 as 0 itself.
+    let shares = |u: f64| {
+        let (x, y) = (1.0 - u, u);
+        let norm = (x * x + y * y).sqrt();
+        // An axis without any share would never stand.
+        [x / norm, y / norm].map(|share| share.max(1e-9))
+    };
+    let late = |u: f64| {
+        let shares = shares(u);
+        let [x, y]: [f64; 2] =
+            std::array::from_fn(|i| time(d[i], v[i], shares[i] * limits.speed, shares[i] * limits.acceleration));
+        if x + y > 0.0 { (x - y) / (x + y) } else { 0.0 }
+    };
+    // cos α ≥ |vₓ|/speed and sin α ≥ |v_y|/speed; the ends meet at full speed.
+    let [x, y] = [v.x, v.y].map(|v| (v.abs() / limits.speed).min(1.0));
+    let other = |share: f64| (1.0 - share * share).sqrt();
+    let mut low = y / (y + other(y));
+    let mut high = (other(x) / (x + other(x))).max(low);
+    // From rest both arrive together on the straight line: a good guess otherwise.
+    let mut u = (d.y.abs() / (d.x.abs() + d.y.abs())).clamp(low, high);
+    if u.is_nan() {
+        u = low;
+    }
+    let [mut at_low, mut at_high] = [late(low), late(high)];
+    if at_low >= 0.0 || at_high <= 0.0 {
+        return shares(if at_low >= 0.0 { low } else { high });
+    }
+    let (mut width, mut side) = (high - low, 0.0);
+    for step in 0..STEPS {
+        let f = late(u);
+        if f.abs() <= TOGETHER {
+            break;
+        }
+        // Regula falsi; the value at an end that stays twice is halved (Illinois), and the interval where that is slow.
+        let halved = if f * side > 0.0 { 0.5 } else { 1.0 };
+        side = f;
+        if f > 0.0 {
+            (high, at_high, at_low) = (u, f, halved * at_low);
+        } else {
+            (low, at_low, at_high) = (u, f, halved * at_high);
+        }
+        u = low - at_low * (high - low) / (at_high - at_low);
+        if step % 3 == 2 {
+            if high - low > 0.25 * width || !(u > low && u < high) {
+                u = 0.5 * (low + high);
+            }
+            width = high - low;
+        }
+        if u <= low || u >= high {
+            break;
+        }
+    }
+    shares(u.clamp(low, high))
 }
 
 /// Appends the motion whose axes follow `phases`.

@@ -1,6 +1,6 @@
 //! Obstacles that move.
 
-use super::{MotionError, Piece, State, Trajectory};
+use super::{MotionError, Trajectory};
 use crate::{Inflated, Point, Vector};
 
 /// Whose a moving obstacle is: who gives way, and how far it can be trusted.
@@ -83,26 +83,5 @@ impl<'a> Mover<'a> {
             Path::Velocity(v) => v * t,
             Path::Trajectory(trajectory) => trajectory.state(t).position - trajectory.start().position,
         }
-    }
-
-    /// Its displacement as pieces, with the times at which they begin; the last one is endless.
-    pub(super) fn displacements(&self) -> impl Iterator<Item = (f64, Piece)> + '_ {
-        let straight = match self.path {
-            Path::Velocity(velocity) => Some((
-                0.0,
-                Piece { duration: f64::INFINITY, position: Point::origin(), velocity, acceleration: Vector::zeros() },
-            )),
-            Path::Trajectory(_) => None,
-        };
-        let timed = match self.path {
-            Path::Velocity(_) => None,
-            Path::Trajectory(trajectory) => {
-                let State { position: from, .. } = trajectory.start();
-                Some(trajectory.timed().map(move |(begin, piece)| {
-                    (begin, Piece { position: Point::from(piece.position - from), ..piece })
-                }))
-            }
-        };
-        straight.into_iter().chain(timed.into_iter().flatten())
     }
 }

@@ -2,6 +2,8 @@
 //!
 //! Between neighbouring roots of its derivative a polynomial is monotone, so each such stretch has one root at most
 //! and bisection, sped up by Newton's steps, finds it to the last bits. No closed formula of Ferrari's keeps as many.
+//! Most polynomials never change their sign, which their Bernstein coefficients tell at once (the hull property; Farouki,
+//! *The Bernstein polynomial basis: a centennial retrospective*, 2012).
 
 /// Coefficients c₀ + c₁t + c₂t² + c₃t³ + c₄t⁴.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,6 +60,7 @@ impl Polynomial {
                     roots.push(t);
                 }
             }
+            2 => self.quadratic_roots(low, high, &mut roots),
             _ => {
                 let slope = self.derivative();
                 let turns = slope.roots(low, high);
@@ -74,6 +77,17 @@ impl Polynomial {
             }
         }
         roots
+    }
+
+    /// Both or none, without cancellation: q = −(b + sign(b)√(b² − 4ac))/2, t₁ = q/a, t₂ = c/q.
+    fn quadratic_roots(&self, low: f64, high: f64, roots: &mut Roots) {
+        let [c, b, a, ..] = self.0;
+        let discriminant = b * b - 4.0 * a * c;
+        if discriminant > 0.0 {
+            let q = -0.5 * (b + discriminant.sqrt().copysign(b));
+            let (t, u) = (q / a, c / q);
+            [t.min(u), t.max(u)].into_iter().filter(|t| *t > low && *t < high).for_each(|t| roots.push(t));
+        }
     }
 
     /// Whether its sign after its zero at the turning point `b` is another one than `fa`'s before it.
@@ -107,10 +121,26 @@ impl Polynomial {
         t
     }
 
+    /// Its coefficients bᵢ in Bernstein's basis on [0, high]: between neighbours of one sign it has that sign.
+    fn bernstein(&self, high: f64) -> [f64; 5] {
+        let mut scaled = self.0;
+        let mut power = 1.0;
+        for c in &mut scaled {
+            *c *= power;
+            power *= high;
+        }
+        let [c0, c1, c2, c3, c4] = scaled;
+        let (c1, c2, c3) = (0.25 * c1, c2 / 6.0, 0.25 * c3);
+        [c0, c0 + c1, c0 + 2.0 * c1 + c2, c0 + 3.0 * (c1 + c2) + c3, c0 + 4.0 * (c1 + c3) + 6.0 * c2 + c4]
+    }
+
     /// The first time in [0, high] from which on it is below zero, at least for a while.
     pub fn first_below(&self, high: f64) -> Option<f64> {
         if self.0[0] < 0.0 {
             return Some(0.0);
+        }
+        if self.bernstein(high).iter().all(|b| *b >= 0.0) {
+            return None;
         }
         let slope = self.derivative();
         let (mut a, mut fa) = (0.0, self.0[0]);
