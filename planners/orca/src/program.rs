@@ -42,11 +42,7 @@ fn on_border(planes: &[HalfPlane], i: usize, reach: &Reach, objective: Objective
             continue;
         }
         let t = offset / sine;
-        if sine > 0.0 {
-            high = high.min(t)
-        } else {
-            low = low.max(t)
-        }
+        (low, high) = if sine > 0.0 { (low, high.min(t)) } else { (low.max(t), high) };
         if low > high {
             return None;
         }
@@ -155,7 +151,7 @@ mod tests {
         let mut draw = || planner_api::seed::splitmix64(&mut state) as f64 / 2f64.powi(64);
         let mut infeasible = 0;
         for _ in 0..300 {
-            let planes: Vec<_> = (0..5).map(|_| beyond(draw() * 6.283, draw() - 0.2)).collect();
+            let planes: Vec<_> = (0..5).map(|_| beyond(draw() * std::f64::consts::TAU, draw() - 0.2)).collect();
             let reach = wide();
             let (best, failed) = solve(&planes, &reach, Objective::Nearest(Vector::zeros()));
             let worst = |v: Vector| planes.iter().map(|p| p.violation(v)).fold(f64::NEG_INFINITY, f64::max);
