@@ -10,9 +10,9 @@
 //! braking is always free and nobody is ever hit, by induction over the frames (passive motion safety; Macek,
 //! Vasquez Govea, Fraichard & Siegwart 2009).
 
+use env_model::World;
 use env_model::motion::contact::{enters_world, meets};
 use env_model::motion::{Limits, Mover, Path, Piece, Trajectory, brake};
-use env_model::World;
 use planner_api::Situation;
 
 /// How much of the distance that is left to a mover is kept where it is less than the margin: rounding must not count.

@@ -51,7 +51,9 @@ fn disc(mover: &Mover<'_>) -> (Point, f64) {
 /// The times at which `mover`, grown by its margin, covers `p`.
 pub fn for_each_cover(mover: &Mover<'_>, p: Point, horizon: f64, mut visit: impl FnMut(Interval)) {
     let (centre, radius) = disc(mover);
-    for_each_stretch(mover, horizon, |begin, piece| covers(&piece, begin, centre, radius + mover.margin, p, &mut visit));
+    for_each_stretch(mover, horizon, |begin, piece| {
+        covers(&piece, begin, centre, radius + mover.margin, p, &mut visit)
+    });
 }
 
 fn covers(piece: &Piece, begin: f64, centre: Point, reach: f64, p: Point, visit: &mut impl FnMut(Interval)) {
@@ -98,11 +100,7 @@ impl SafeIntervals {
             let grown = radius + mover.margin;
             let reach = (grown * grown + half * half).sqrt();
             for_each_stretch(mover, horizon, |begin, piece| {
-                let swept = if piece.duration.is_finite() {
-                    piece.aabb()
-                } else {
-                    Aabb::of_points([&piece.position])
-                };
+                let swept = if piece.duration.is_finite() { piece.aabb() } else { Aabb::of_points([&piece.position]) };
                 let near = Aabb { min: swept.min + centre.coords, max: swept.max + centre.coords }.inflated(reach);
                 if !near.overlaps(&grid.aabb()) {
                     return;

@@ -93,8 +93,7 @@ pub fn drive(
                     Mover::disc(states[j].position, 2.0 * RADIUS, path, Side::Mate).with_margin(MARGIN)
                 })
                 .collect();
-            let situation =
-                Situation::new(&world, &movers, states[i], starts[i].1, limits, HORIZON, PERIOD).unwrap();
+            let situation = Situation::new(&world, &movers, states[i], starts[i].1, limits, HORIZON, PERIOD).unwrap();
             let mut answer = Trajectory::default();
             let mut run = Run::new(seed.wrapping_mul(1000).wrapping_add(frame * 16 + i as u64));
             let begin = std::time::Instant::now();
