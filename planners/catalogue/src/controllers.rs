@@ -3,6 +3,8 @@
 use planner_api::Controller;
 use planner_behaviour::Behaviour;
 use planner_control::Replan;
+use planner_sampled_bang_bang::SampledBangBang;
+use planner_space_time::Sipp;
 use toml::de::DeTable;
 use toml::{Spanned, Table};
 
@@ -34,12 +36,26 @@ pub struct BuiltController {
 
 /// The controllers that are no planners, in the order of the documentation.
 pub fn controllers() -> &'static [ControllerKind] {
-    const KINDS: &[ControllerKind] = &[ControllerKind {
-        name: "behaviour",
-        summary: "The weighted sum of simple behaviours: to the goal, away from obstacles and robots, into formation",
-        source: "Fang 2009, chapter 5; Balch & Arkin 1998",
-        make: |settings| plain(settings, Behaviour::new),
-    }];
+    const KINDS: &[ControllerKind] = &[
+        ControllerKind {
+            name: "behaviour",
+            summary: "The weighted sum of simple behaviours: to the goal, away from obstacles and robots, into formation",
+            source: "Fang 2009, chapter 5; Balch & Arkin 1998",
+            make: |settings| plain(settings, Behaviour::new),
+        },
+        ControllerKind {
+            name: "bang-bang",
+            summary: "The best of many bang-bang trajectories by way of intermediate destinations, checked in time",
+            source: "practice of TIGERs Mannheim and ER-Force in the Small Size League",
+            make: |settings| plain(settings, SampledBangBang::new),
+        },
+        ControllerKind {
+            name: "sipp",
+            summary: "A* over grid cells and the times at which they are safe, then legs within the robot's limits",
+            source: "Phillips & Likhachev 2011, ICRA, 5628-5635",
+            make: |settings| plain(settings, Sipp::new),
+        },
+    ];
     KINDS
 }
 

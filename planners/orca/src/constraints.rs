@@ -95,12 +95,9 @@ pub fn for_each_wall(world: &World, p: Point, reach: f64, mut visit: impl FnMut(
     });
     if let Some(field) = world.inner_field() {
         let (low, high) = (p - field.min, field.max - p);
-        for (clearance, normal) in [
-            (low.x, -Vector::x()),
-            (low.y, -Vector::y()),
-            (high.x, Vector::x()),
-            (high.y, Vector::y()),
-        ] {
+        for (clearance, normal) in
+            [(low.x, -Vector::x()), (low.y, -Vector::y()), (high.x, Vector::x()), (high.y, Vector::y())]
+        {
             if clearance < reach {
                 visit(Wall { normal, clearance });
             }

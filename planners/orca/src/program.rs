@@ -42,7 +42,11 @@ fn on_border(planes: &[HalfPlane], i: usize, reach: &Reach, objective: Objective
             continue;
         }
         let t = offset / sine;
-        if sine > 0.0 { high = high.min(t) } else { low = low.max(t) }
+        if sine > 0.0 {
+            high = high.min(t)
+        } else {
+            low = low.max(t)
+        }
         if low > high {
             return None;
         }

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use env_model::motion::{Limits, Mover, Path, Side, State, Trajectory};
-use env_model::{scene::Field, Obstacle, Point, Scene, Vector, World};
+use env_model::{Obstacle, Point, Scene, Vector, World, scene::Field};
 use planner_api::{Controller, Run, Situation};
 
 use super::{Draw, FRAME, HORIZON, RADIUS, circle_swap, crossing, limits, shares};
@@ -103,8 +103,7 @@ pub fn survives_hostile_input(make: &dyn Fn() -> Box<dyn Controller>) {
                         let mover = Mover::disc(centre, 0.18, Path::Velocity(theirs), Side::Mate);
                         let movers = [mover.clone(), mover];
                         let state = State { position: here, velocity };
-                        let situation =
-                            Situation::new(&world, &movers, state, goal, limits, horizon, FRAME).unwrap();
+                        let situation = Situation::new(&world, &movers, state, goal, limits, horizon, FRAME).unwrap();
                         controller.control(&situation, &mut Run::new(1), &mut trajectory).unwrap();
                         let peaks = trajectory.peaks();
                         let speed = limits.speed.max(velocity.norm());
