@@ -90,7 +90,13 @@ impl Controller for Sipp {
         let whole = self.retime.run(situation, &mut self.foresight, &self.way, trajectory);
         let moves = trajectory.duration() > 0.0;
         if !moves || !self.foresight.can_stop(situation, trajectory) {
-            brake(state, limits, trajectory);
+            brake(state, limits, &mut self.join);
+            let stops = self.foresight.can_stop(situation, &self.join);
+            let mut touches = |trajectory: &Trajectory| self.foresight.contact(situation, trajectory, 0.0);
+            // Where braking is not safe either, what puts the collision off.
+            if !moves || stops || touches(&self.join) >= touches(trajectory) {
+                trajectory.copy_from(&self.join);
+            }
             return Ok(if self.way.is_empty() { Outcome::NotFound } else { Outcome::Partial });
         }
         Ok(if found && whole { Outcome::Arrives } else { Outcome::Partial })
