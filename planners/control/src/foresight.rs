@@ -4,21 +4,21 @@
 //! robot that is nearer to a mover than its margin keeps what distance it has.
 //!
 //! A motion *can be stopped* if after its first period, the one that is followed for certain, the robot can brake
-//! straight on without touching anything until it stands: nothing that stands still, and no mover, whether that goes
-//! on or, where its trajectory is known, brakes after the period as well. If all robots of a team move so, planning one
+//! straight on without touching anything until it stands: nothing that stands still, and no mover. A mover with a
+//! trajectory is taken to brake after the period as well, one with a velocity either to go on or to brake now. If all robots of a team move so, planning one
 //! after the other, each seeing the new trajectories of those before it and the braking of those after it, then
 //! braking is always free and nobody is ever hit, by induction over the frames (passive motion safety; Macek,
 //! Vasquez Govea, Fraichard & Siegwart 2009).
 
-use env_model::World;
 use env_model::motion::contact::{enters_world, meets};
-use env_model::motion::{Limits, Mover, Path, Piece, Trajectory, brake};
+use env_model::motion::{Limits, Mover, Path, Piece, State, Trajectory, brake};
+use env_model::{Point, World};
 use planner_api::Situation;
 
 /// How much of the distance that is left to a mover is kept where it is less than the margin: rounding must not count.
 const KEPT: f64 = 1.0 - 1e-6;
 
-/// What is kept off movers when braking, in their radii: a safe stop needs no margin but for rounding.
+/// What is kept off known trajectories when braking, in their movers' radii: a safe stop needs no margin but for rounding.
 const DISTANCE: f64 = 1e-3;
 
 /// What one robot needs to know of a moment to judge many motions. Its buffers are reused.
@@ -28,7 +28,7 @@ pub struct Foresight {
     margins: Vec<f64>,
     /// Movers, those that were touched last first: they are most likely to be touched again.
     order: Vec<usize>,
-    /// How each mover with a trajectory would brake after a period.
+    /// How each mover would brake: after a period where its trajectory is known, else now.
     stops: Vec<Trajectory>,
     stop: Trajectory,
     leg: Trajectory,
@@ -49,8 +49,9 @@ impl Foresight {
         }
         self.stops.resize_with(movers.len().max(self.stops.len()), Trajectory::default);
         for (mover, stop) in movers.iter().zip(&mut self.stops) {
-            if let Path::Trajectory(trajectory) = mover.path {
-                stop_after(trajectory, period, limits, &mut self.leg, stop);
+            match mover.path {
+                Path::Trajectory(trajectory) => stop_after(trajectory, period, limits, &mut self.leg, stop),
+                Path::Velocity(velocity) => brake(State { position: Point::origin(), velocity }, limits, stop),
             }
         }
     }
@@ -85,13 +86,16 @@ impl Foresight {
     }
 
     fn avoids(&self, i: usize, mover: &Mover<'_>, stop: &Trajectory) -> bool {
-        let margin = self.margins[i].min(mover.shape.radius * DISTANCE);
+        let (margin, theirs) = (self.margins[i], &self.stops[i]);
+        let braking = Mover { path: Path::Trajectory(theirs), ..mover.clone() };
         match mover.path {
             // Once the robot stands, it is not the one who hits.
-            Path::Velocity(_) => meets(stop, mover, margin, stop.duration()).is_none(),
+            Path::Velocity(_) => {
+                let until = stop.duration();
+                meets(stop, mover, margin, until).is_none() && meets(stop, &braking, margin, until).is_none()
+            }
             Path::Trajectory(_) => {
-                let theirs = &self.stops[i];
-                let braking = Mover { path: Path::Trajectory(theirs), ..mover.clone() };
+                let margin = margin.min(mover.shape.radius * DISTANCE);
                 meets(stop, &braking, margin, stop.duration().max(theirs.duration())).is_none()
             }
         }

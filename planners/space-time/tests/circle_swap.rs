@@ -1,15 +1,28 @@
-//! Eight robots change places on a circle.
+//! Eight robots change places on a circle; the contract of controllers.
 
 #[path = "../../sampled-bang-bang/tests/team/mod.rs"]
 mod team;
 
 use planner_api::Controller;
 use planner_space_time::{Sipp, SippSettings};
-use team::{Knowledge, circle, drive, limits, quantile};
+use team::{Knowledge, check_contract, check_hostile, circle, drive, limits, measure, quantile};
+
+fn new() -> Box<dyn Controller> {
+    Box::new(Sipp::new(SippSettings::default()).unwrap())
+}
 
 fn controllers(n: usize) -> Vec<Box<dyn Controller>> {
-    let new = || Sipp::new(SippSettings::default()).unwrap();
-    (0..n).map(|_| Box::new(new()) as Box<dyn Controller>).collect()
+    (0..n).map(|_| new()).collect()
+}
+
+#[test]
+fn it_keeps_the_contract_among_crowds() {
+    check_contract(new);
+}
+
+#[test]
+fn hostile_input_is_answered() {
+    check_hostile(new);
 }
 
 #[test]
@@ -29,6 +42,7 @@ fn a_team_swaps_places_without_collision() {
 #[test]
 #[ignore = "a measurement"]
 fn a_hundred_seeds() {
+    measure(new);
     for (name, knowledge) in [("team", Knowledge::Team), ("independent", Knowledge::Independent)] {
         let outcomes: Vec<_> = (0..100)
             .map(|seed| drive(&mut controllers(8), &circle(8, seed), knowledge, seed, 20.0, |_, _, _| {}))
