@@ -10,7 +10,7 @@ use super::selection::Selector;
 use super::{Coding, Tuning};
 use crate::dice::Dice;
 use crate::episode::Episode;
-use crate::fitness::{self, fitness};
+use crate::fitness;
 use crate::parameters::Parameters;
 use crate::protocol::Protocol;
 use crate::scenario::{Scenario, Set, TUNING_STREAM};
@@ -171,6 +171,7 @@ mod tests {
 
     use super::*;
     use crate::Selection;
+    use crate::fitness::fitness;
 
     fn small() -> (Protocol, Tuning) {
         let protocol = Protocol { robots: 2, opponents: 2, obstacles: 2, steps: 80, ..Protocol::default() };
