@@ -48,9 +48,9 @@ impl Default for Weights {
 pub struct Protocol {
     /// Robots of the team, 1 … 16. Default 4.
     pub robots: usize,
-    /// Opponents, 0 … 32. Default 6.
+    /// Opponents, 0 … 32. Default 8.
     pub opponents: usize,
-    /// Discs that stand, 0 … 64. Default 6. Where the field has no room for one, there is one less.
+    /// Discs that stand, 0 … 64. Default 8. Where the field has no room for one, there is one less.
     pub obstacles: usize,
     /// The team's formation. Default `"diamond"`.
     pub formation: Formation,
@@ -68,7 +68,7 @@ pub struct Protocol {
     /// absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub acceleration: Option<f64>,
-    /// Greatest speed of an opponent in metres per second, 0 … 10; each has between a quarter of it and all. Default 1.
+    /// Greatest speed of an opponent in metres per second, 0 … 10; each has between a quarter of it and all. Default 1.5.
     pub opponent_speed: f64,
     /// Length of a step in seconds, 0.001 … 0.2. Default 0.05.
     pub step_s: f64,
@@ -95,8 +95,8 @@ impl Default for Protocol {
     fn default() -> Self {
         Self {
             robots: 4,
-            opponents: 6,
-            obstacles: 6,
+            opponents: 8,
+            obstacles: 8,
             formation: Formation::Diamond,
             spacing: 0.5,
             field: [9.0, 6.0],
@@ -104,7 +104,7 @@ impl Default for Protocol {
             obstacle_radius: [0.1, 0.3],
             speed: 2.0,
             acceleration: None,
-            opponent_speed: 1.0,
+            opponent_speed: 1.5,
             step_s: 0.05,
             steps: 160,
             arrival: 0.1,

@@ -120,7 +120,7 @@ mod tests {
         let r = protocol.robot_radius;
         for index in 0..200 {
             let s = Scenario::draw(&protocol, Set::Training, index, 3);
-            assert_eq!((s.starts.len(), s.goals.len(), s.opponents.len()), (5, 5, 6));
+            assert_eq!((s.starts.len(), s.goals.len(), s.opponents.len()), (5, 5, 8));
             for p in s.starts.iter().chain(&s.goals) {
                 assert!(p.x.abs() <= 4.5 - r + 1e-12 && p.y.abs() <= 3.0 - r + 1e-12, "{p}");
                 assert!(s.obstacles.iter().all(|(c, radius)| (p - c).norm() > radius + r));
@@ -129,7 +129,7 @@ mod tests {
             for (i, (a, ra)) in s.obstacles.iter().enumerate() {
                 assert!(s.obstacles[..i].iter().all(|(b, rb)| (a - b).norm() > ra + rb + 2.0 * r));
             }
-            assert!(s.opponents.iter().all(|(_, v)| (0.25..=1.0).contains(&(v.norm() * (1.0 + 1e-12)))));
+            assert!(s.opponents.iter().all(|(_, v)| (0.3749..=1.5001).contains(&v.norm())));
         }
     }
 

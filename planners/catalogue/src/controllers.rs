@@ -44,7 +44,13 @@ pub fn controllers() -> &'static [ControllerKind] {
             name: "behaviour",
             summary: "The weighted sum of simple behaviours: to the goal, away from obstacles and robots, into formation",
             source: "Fang 2009, chapter 5; Balch & Arkin 1998",
-            make: |settings| plain(settings, Behaviour::new),
+            make: |settings| {
+                plain(settings, Behaviour::new).map_err(|e| match &e {
+                    // Every number but one is a table further in.
+                    BuildError::Setting { error, .. } if error.key != "spacing" => e.within("parameters"),
+                    _ => e,
+                })
+            },
         },
         ControllerKind {
             name: "orca",
@@ -124,4 +130,23 @@ where
     let settings: S = settings.parse()?;
     let controller = new(settings.clone())?;
     Ok((Box::new(controller), kinds::table(&settings)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_parameter_of_behaviour_is_named_with_its_table() {
+        let error = build_controller_str("behaviour", "[parameters]\ngoal_gain = -1").err();
+        assert!(
+            matches!(&error, Some(BuildError::Setting { within, error })
+                if within == &["parameters"] && error.key == "goal_gain"),
+            "{error:?}"
+        );
+        let error = build_controller_str("behaviour", "spacing = 0").err();
+        assert!(matches!(&error, Some(BuildError::Setting { within, .. }) if within.is_empty()), "{error:?}");
+        let built = build_controller_str("behaviour", "").unwrap();
+        assert_eq!(built.settings["parameters"]["robot_gain"].as_float(), Some(2.0));
+    }
 }

@@ -10,7 +10,7 @@ use super::selection::Selector;
 use super::{Coding, Tuning};
 use crate::dice::Dice;
 use crate::episode::Episode;
-use crate::fitness::{self, fitness};
+use crate::fitness;
 use crate::parameters::Parameters;
 use crate::protocol::Protocol;
 use crate::scenario::{Scenario, Set, TUNING_STREAM};
@@ -29,7 +29,7 @@ pub struct Generation {
 pub struct Tuned {
     /// Every generation, that of number 0 drawn at random. Empty where the budget allowed none.
     pub generations: Vec<Generation>,
-    /// The fittest individual, judged by training; the published parameters where there was no generation.
+    /// The fittest individual, judged by the training scenarios played last; the published parameters where there was no generation.
     pub parameters: Parameters,
     /// Individuals evaluated, each on all training scenarios.
     pub evaluations: u64,
@@ -37,7 +37,8 @@ pub struct Tuned {
 
 /// Tunes parameters by a genetic algorithm; all randomness is `run.seed`'s.
 ///
-/// With the same scenarios in every generation and an elite, the maximum never falls. Each generation is an iteration
+/// With the same scenarios in every generation and an elite, the maximum never falls; with new ones the fittest of the
+/// last generation is the result. Each generation is an iteration
 /// of the run's budget, each individual an evaluation; a generation that time cuts short does not count. Reports
 /// progress with cost 1 − maximum.
 ///
@@ -171,10 +172,11 @@ mod tests {
 
     use super::*;
     use crate::Selection;
+    use crate::fitness::fitness;
 
     fn small() -> (Protocol, Tuning) {
         let protocol = Protocol { robots: 2, opponents: 2, obstacles: 2, steps: 80, ..Protocol::default() };
-        (protocol, Tuning { population: 8, generations: 6, ..Tuning::default() })
+        (protocol, Tuning { population: 8, generations: 6, redraw: false, ..Tuning::default() })
     }
 
     #[test]
