@@ -36,7 +36,7 @@ pub fn slots(formation: crate::Formation, n: usize, spacing: f64) -> Vec<Vector>
         Formation::Line => Vector::new(0.0, i as f64 * spacing),
         Formation::Column => Vector::new(-(i as f64) * spacing, 0.0),
         Formation::Wedge => {
-            let (rank, side) = (i.div_ceil(2) as f64, if i % 2 == 0 { -1.0 } else { 1.0 });
+            let (rank, side) = (i.div_ceil(2) as f64, if i.is_multiple_of(2) { -1.0 } else { 1.0 });
             Vector::new(-rank, side * rank) * spacing * std::f64::consts::FRAC_1_SQRT_2
         }
         Formation::Diamond => {

@@ -34,8 +34,7 @@ pub fn zones(league: League, command: Command, role: Role, ball: Option<Ball>) -
     if matches!(command, Command::Off | Command::Halt) {
         return zones;
     }
-    let keeper = role == Role::Keeper;
-    if !keeper {
+    if role != Role::Keeper {
         zones.push(defence_area(league, -1.0, 0.0));
     }
     let near = match command {
@@ -44,24 +43,22 @@ pub fn zones(league: League, command: Command, role: Role, ball: Option<Ball>) -
     };
     zones.push(defence_area(league, 1.0, near));
     let round = |core: Core, distance: f64| Inflated { core, radius: distance + ROBOT_RADIUS };
-    let taker = role == Role::Taker;
+    if role == Role::Taker && matches!(command, Command::KickoffOwn | Command::BallPlacementOwn) {
+        return zones;
+    }
     match command {
         Command::Stop | Command::DirectFreeOpponent => {
             zones.extend(ball.map(|ball| round(Core::Point(ball.at), BALL_DISTANCE)));
         }
         Command::KickoffOpponent | Command::KickoffOwn => {
-            if !(command == Command::KickoffOwn && taker) {
-                zones.push(opposing_half(league));
-                zones.push(round(Core::Point(Point::origin()), CENTRE_CIRCLE));
-            }
+            zones.push(opposing_half(league));
+            zones.push(round(Core::Point(Point::origin()), CENTRE_CIRCLE));
         }
         Command::BallPlacementOpponent | Command::BallPlacementOwn => {
-            if !(command == Command::BallPlacementOwn && taker) {
-                zones.extend(ball.map(|Ball { at, target }| {
-                    let core = target.filter(|t| *t != at).map_or(Core::Point(at), |t| Core::Segment(at, t));
-                    round(core, PLACEMENT_DISTANCE)
-                }));
-            }
+            zones.extend(ball.map(|Ball { at, target }| {
+                let core = target.filter(|t| *t != at).map_or(Core::Point(at), |t| Core::Segment(at, t));
+                round(core, PLACEMENT_DISTANCE)
+            }));
         }
         _ => {}
     }
@@ -90,7 +87,7 @@ fn rectangle([from, to]: [f64; 2], half_width: f64, distance: f64) -> Inflated {
 mod tests {
     use super::*;
 
-    /// Whether a robot at `p` is in a zone, and that 1 mm on it is not, or the other way round.
+    /// Whether a robot at `p` is in a zone.
     fn inside(command: Command, role: Role, ball: Option<Ball>, p: [f64; 2]) -> bool {
         zones(League::DivisionA, command, role, ball).iter().any(|z| z.point_clearance(p.into()) < 0.0)
     }
