@@ -125,13 +125,14 @@ impl Simulation {
         let mut play = play(settings.play);
         let Setup { own, opponents, ball, placement } = play.setup(settings, &mut rng)?;
         let rules = Rules::new(settings.league, settings.command(), seen(ball, placement))?;
-        let guards = (0..own.len()).map(|_| build(planner.0, planner.1, settings)).collect::<Result<Vec<_>, _>>()?;
+        let guards = (0..own.len()).map(|_| build(planner.0, planner.1)).collect::<Result<Vec<_>, _>>()?;
         let team_settings = TeamSettings {
             period: settings.period(),
             horizon: settings.horizon_s,
             margin: settings.margin,
             cooperation: settings.cooperation,
             hysteresis: settings.hysteresis,
+            emergency_brake: settings.emergency_brake,
         };
         let bodies: Vec<Body> = own.iter().chain(&opponents).map(|state| Body::new(*state, limits)).collect();
         let body = |side: &str| TraceBody { side: side.to_owned(), radius: ROBOT_RADIUS };
@@ -216,7 +217,7 @@ impl Simulation {
     /// [`SimulationError::Build`]
     pub fn swap(&mut self, kind: &str, settings: &str) -> Result<(), SimulationError> {
         for robot in 0..self.starts.len() {
-            self.team.swap(robot, build(kind, settings, &self.settings)?);
+            self.team.swap(robot, build(kind, settings)?);
         }
         Ok(())
     }
@@ -471,9 +472,8 @@ impl Simulation {
     }
 }
 
-fn build(kind: &str, settings: &str, simulation: &Settings) -> Result<planner_control::Guard, SimulationError> {
-    guard(kind, settings, simulation.emergency_brake)
-        .map_err(|source| SimulationError::Build { planner: kind.to_owned(), source })
+fn build(kind: &str, settings: &str) -> Result<planner_control::Guard, SimulationError> {
+    guard(kind, settings).map_err(|source| SimulationError::Build { planner: kind.to_owned(), source })
 }
 
 /// The ball as rules see it.
