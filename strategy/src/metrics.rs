@@ -7,18 +7,21 @@ use serde::{Deserialize, Serialize};
 pub struct Metrics {
     /// How long it lasted, in seconds.
     pub duration_s: f64,
-    /// Own robots.
+    /// Own robots; with waves, each counts once a wave that began.
     pub robots: usize,
     /// Own robots that came to stand at their goal for good.
     pub arrived: usize,
-    /// Mean time of arrival, in seconds; `None` unless all arrived.
+    /// Mean time of arrival since the beginning of its wave, in seconds; `None` unless all arrived.
     pub arrival_s: Option<f64>,
     /// Mean least time, in seconds, if nothing were in the way.
     pub least_s: f64,
     /// Contacts of an own robot with another robot.
     pub collisions: u32,
-    /// Contacts of an own robot with what stands still, or steps over the border.
+    /// How often an own robot went where it must not be, over the border or into a zone of the rules, or became faster
+    /// than they allow.
     pub violations: u32,
+    /// Mean seconds that an own robot spent so, those included in which a zone came upon it.
+    pub violation_s: f64,
     /// Collisions that are crash fouls by an own robot.
     pub fouls: u32,
     /// Way of the robots that arrived over the straight ones; `None` where none did.

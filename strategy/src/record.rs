@@ -5,20 +5,20 @@ use serde::{Deserialize, Serialize};
 
 use crate::Metrics;
 
-/// One own robot.
+/// One own robot's way to one goal.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RobotRecord {
     /// Where it began.
     pub start: [f64; 2],
     /// Where it was to stand in the end.
     pub goal: [f64; 2],
-    /// When it came to stand there for good, in seconds; `None` if never.
+    /// When it came to stand there for good, in seconds since the way's beginning; `None` if never.
     pub arrival_s: Option<f64>,
     /// The least time that any motion within its limits takes if nothing is in its way, in seconds.
     pub least_s: f64,
     /// How far it went, in metres.
     pub travelled: f64,
-    /// Collisions that it took part in.
+    /// Collisions that it took part in, on this way.
     pub collisions: u32,
 }
 
@@ -118,7 +118,7 @@ impl Stopwatch {
 pub struct Record {
     /// What it comes to.
     pub metrics: Metrics,
-    /// Own robots in their order.
+    /// Own robots in their order, wave by wave.
     pub robots: Vec<RobotRecord>,
     /// Times of the controllers.
     pub compute: Compute,

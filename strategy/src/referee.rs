@@ -8,12 +8,10 @@ use env_model::World;
 use env_model::motion::{Mover, Path, Side, contact};
 
 use crate::league::ROBOT_RADIUS;
-use crate::{Body, Event};
+use crate::rules::Rules;
+use crate::rules::crash::{Guilt, closing_speed, crash};
+use crate::{Body, Event, Task};
 
-/// Closing speed above which contact is a crash foul, in m/s (rules of 2026).
-pub const CRASH_SPEED: f64 = 1.5;
-/// Where speeds differ by less, in m/s, both are guilty.
-pub const CRASH_MARGIN: f64 = 0.3;
 /// Touching is allowed: rounding of positions within a field is far below, in metres.
 const SLACK: f64 = 1e-9;
 
@@ -23,12 +21,12 @@ pub struct Referee {
     own: usize,
     /// Pairs in contact at the end of the last frame.
     touching: Vec<bool>,
-    /// Own robots outside the world's free space at the end of the last frame.
-    astray: Vec<bool>,
     /// Collisions, in the order of frames.
     pub events: Vec<Event>,
-    /// Steps of own robots into what stands still or over the border.
+    /// How often own robots went where they must not be, or became too fast.
     pub violations: u32,
+    /// Seconds that own robots spent so, all together.
+    pub violation_s: f64,
     /// Least clearance between an own robot and another one, in metres.
     pub least_clearance: f64,
 }
@@ -40,28 +38,27 @@ impl Referee {
         Self {
             own,
             touching: vec![false; own * bodies],
-            astray: vec![false; own],
             events: Vec::new(),
             violations: 0,
+            violation_s: 0.0,
             least_clearance: f64::INFINITY,
         }
     }
 
-    /// Judges the frame that began at `time` and lasted `period` seconds; own robots are the first `bodies`. `world_of`
-    /// says what stands in an own robot's way.
-    pub fn judge<'w>(&mut self, time: f64, period: f64, bodies: &[Body], world_of: impl Fn(usize) -> &'w World) {
+    /// Judges the frame that began at `time` and lasted `period` seconds; own robots are the first `bodies`,
+    /// with these tasks under these rules.
+    pub fn judge(&mut self, time: f64, period: f64, bodies: &[Body], tasks: &[Task], rules: &Rules) {
         for a in 0..self.own {
             for b in a + 1..bodies.len() {
                 self.pair(time, period, bodies, a, b);
             }
-            let world = world_of(a);
-            let entered =
-                bodies[a].motion.timed().take_while(|(begin, _)| *begin < period).any(|(begin, mut piece)| {
-                    piece.duration = piece.duration.min(period - begin);
-                    contact::enters_world(&piece, world).is_some()
-                });
-            self.violations += u32::from(entered && !self.astray[a]);
-            self.astray[a] = entered && !world.point_free(bodies[a].state.position);
+            let (body, role) = (&bodies[a], tasks[a].role);
+            let after = rules.allows(role, body.state);
+            // Who was in a zone before, perhaps since the zone came, has not entered it now.
+            let before = rules.allows(role, body.motion.start());
+            let broken = !after || enters(body, &rules.worlds()[tasks[a].world], period);
+            self.violations += u32::from(before && broken);
+            self.violation_s += if after { 0.0 } else { period };
         }
     }
 
@@ -77,17 +74,22 @@ impl Referee {
         }
         let at = contact::meets(motion, &mover, 0.0, period).unwrap_or(0.0);
         let [p, q] = [motion.state(at), other.state(at)];
-        let line = (q.position - p.position).normalize();
-        let closing = (p.velocity - q.velocity).dot(&line);
-        let guilty = b >= self.own && p.velocity.norm() > q.velocity.norm() - CRASH_MARGIN;
         self.events.push(Event {
             time_s: time + at,
             bodies: [a, b],
             at: middle(p.position, q.position),
-            closing,
-            foul: closing > CRASH_SPEED && guilty,
+            closing: closing_speed(p, q),
+            foul: b >= self.own && matches!(crash(p, q), Some(Guilt::First | Guilt::Both)),
         });
     }
+}
+
+/// Whether a body went into what stands in its world during the last frame.
+fn enters(body: &Body, world: &World, period: f64) -> bool {
+    body.motion.timed().take_while(|(begin, _)| *begin < period).any(|(begin, mut piece)| {
+        piece.duration = piece.duration.min(period - begin);
+        contact::enters_world(&piece, world).is_some()
+    })
 }
 
 fn middle(p: env_model::Point, q: env_model::Point) -> [f64; 2] {

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use toml::Table;
 
 use crate::League;
+use crate::rules::Command;
 
 /// Which situation the robots are in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -15,6 +16,40 @@ pub enum PlayKind {
     CircleSwap,
     /// Robots cross the field among opponents that drift across.
     Crossing,
+    /// Robots run to positions all over the field among opponents that drift.
+    Positions,
+    /// Attackers run to free positions round the opposing defence area while opponents block their lines to the goal.
+    Attack,
+    /// Robots hold a formation that moves up the field among opponents that drift.
+    Formation,
+    /// One robot places the ball; the others have to leave its way, or pass round it.
+    BallPlacement,
+}
+
+/// Shapes of formations (Balch & Arkin 1998, doi:10.1109/70.736776), facing up the field.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Formation {
+    /// Abreast.
+    #[default]
+    Line,
+    /// One after the other.
+    Column,
+    /// A square on its corner.
+    Diamond,
+    /// A leader, the others behind on both sides.
+    Wedge,
+}
+
+/// Who goes to which position.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Dealing {
+    /// As drawn: ways cross.
+    #[default]
+    Drawn,
+    /// So that the sum of squared distances is least.
+    Optimal,
 }
 
 /// How the robots of a team regard each other.
@@ -48,6 +83,20 @@ pub struct Swap {
 pub struct Settings {
     /// The situation.
     pub play: PlayKind,
+    /// What the referee commands all the time; default running, or ball-placement-own in that play.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub command: Option<Command>,
+    /// How often goals are given out, 1 to 10000; default 1. More only in positions, circle-swap and crossing: new goals
+    /// when all have arrived, or after `wave_s`.
+    pub waves: usize,
+    /// The longest time for one wave, > 0 s; default 10. Of no meaning with one wave.
+    pub wave_s: f64,
+    /// In the play positions, who goes where; default drawn.
+    pub dealing: Dealing,
+    /// In the play formation, its shape; default line.
+    pub formation: Formation,
+    /// In the play formation, distance between neighbours, 0.22 to 3 m; default 0.4.
+    pub spacing: f64,
     /// Own robots, 1 to 16; default 8.
     pub robots: usize,
     /// Opponents, 0 to 16; default 0.
@@ -91,6 +140,12 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             play: PlayKind::CircleSwap,
+            command: None,
+            waves: 1,
+            wave_s: 10.0,
+            dealing: Dealing::Drawn,
+            formation: Formation::Line,
+            spacing: 0.4,
             robots: 8,
             opponents: 0,
             league: League::DivisionA,
@@ -141,10 +196,23 @@ impl Settings {
         within("actuation_noise", s.actuation_noise, (0.0..=1.0).contains(&s.actuation_noise), "0 to 1")?;
         within("jitter", s.jitter, (0.0..=1.0).contains(&s.jitter), "0 to 1 m")?;
         within("hysteresis", s.hysteresis, (0.0..=1.0).contains(&s.hysteresis), "0 to 1")?;
+        SettingError::check((1..=10_000).contains(&s.waves), "waves", s.waves, "1 to 10000")?;
+        let repeats = matches!(s.play, PlayKind::Positions | PlayKind::CircleSwap | PlayKind::Crossing);
+        SettingError::check(repeats || s.waves == 1, "waves", s.waves, "1 in a play with one goal for each robot")?;
+        within("wave_s", s.wave_s, s.wave_s > 0.0 && s.wave_s <= 3600.0, "above 0, at most 3600 s")?;
+        within("spacing", s.spacing, (0.22..=3.0).contains(&s.spacing), "0.22 to 3 m")?;
         for swap in &s.swap {
             within("swap.at_s", swap.at_s, swap.at_s >= 0.0, "at least 0 s")?;
         }
         Ok(())
+    }
+
+    /// What the referee commands.
+    pub fn command(&self) -> Command {
+        self.command.unwrap_or(match self.play {
+            PlayKind::BallPlacement => Command::BallPlacementOwn,
+            _ => Command::Running,
+        })
     }
 
     /// Seconds between two frames.

@@ -3,16 +3,17 @@
 use std::time::{Duration, Instant};
 
 use env_model::motion::{Limits, MotionError, State, Trajectory, bang_bang, least_time};
-use env_model::{Point, Scene, SceneError, World};
+use env_model::{Point, SceneError};
 use planner_api::{Budget, SettingError};
 use planner_catalogue::BuildError;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-use crate::league::ROBOT_RADIUS;
+use crate::league::{BALL_RADIUS, ROBOT_RADIUS};
 use crate::plays::{Conduct, Play, Setup, play};
 use crate::record::Stopwatch;
 use crate::referee::Referee;
+use crate::rules::{Ball, Rules};
 use crate::team::guard;
 use crate::{Body, Metrics, Record, RobotRecord, Settings, Task, Team, TeamSettings, Trace, TraceBody, View, draw};
 
@@ -72,10 +73,20 @@ pub struct Simulation {
     team: Team,
     /// Own robots, then opponents.
     bodies: Vec<Body>,
+    /// Where own robots are to stand in the end, the nearest legal points.
     goals: Vec<Point>,
+    /// The same as the play says it.
+    asked: Vec<Point>,
+    /// Where own robots were when their wave began.
     starts: Vec<State>,
+    /// Waves that are over, and since when the present one goes on.
+    waves: usize,
+    wave_began: f64,
+    /// Ways of waves that are over.
+    ways: Vec<RobotRecord>,
     ball: Option<State>,
-    worlds: Vec<World>,
+    placement: Option<Point>,
+    rules: Rules,
     tasks: Vec<Task>,
     conducts: Vec<Conduct>,
     believed: Vec<State>,
@@ -89,6 +100,8 @@ pub struct Simulation {
     travelled: Vec<f64>,
     switches: u64,
     stuck: f64,
+    /// Sum of distances to places in the formation, and how many.
+    formation: (f64, u64),
     metrics: Metrics,
     stopwatch: Stopwatch,
     traced: bool,
@@ -110,7 +123,8 @@ impl Simulation {
         let limits = Limits::new(settings.speed, settings.acceleration)?;
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let mut play = play(settings.play);
-        let Setup { own, opponents, ball, goals } = play.setup(settings, &mut rng);
+        let Setup { own, opponents, ball, placement } = play.setup(settings, &mut rng)?;
+        let rules = Rules::new(settings.league, settings.command(), seen(ball, placement))?;
         let guards = (0..own.len()).map(|_| build(planner.0, planner.1)).collect::<Result<Vec<_>, _>>()?;
         let team_settings = TeamSettings {
             period: settings.period(),
@@ -122,10 +136,15 @@ impl Simulation {
         };
         let bodies: Vec<Body> = own.iter().chain(&opponents).map(|state| Body::new(*state, limits)).collect();
         let body = |side: &str| TraceBody { side: side.to_owned(), radius: ROBOT_RADIUS };
-        let sides: Vec<TraceBody> =
-            own.iter().map(|_| body("own")).chain(opponents.iter().map(|_| body("opponent"))).collect();
+        let round = TraceBody { side: "ball".to_owned(), radius: BALL_RADIUS };
+        let sides: Vec<TraceBody> = own
+            .iter()
+            .map(|_| body("own"))
+            .chain(opponents.iter().map(|_| body("opponent")))
+            .chain(ball.map(|_| round))
+            .collect();
         let n = own.len();
-        Ok(Self {
+        let mut simulation = Self {
             budget,
             limits,
             // Not the simulator's own stream: a planner draws the same whatever the noise.
@@ -134,11 +153,16 @@ impl Simulation {
             play,
             team: Team::new(team_settings, guards),
             referee: Referee::new(n, opponents.len()),
+            goals: own.iter().map(|state| state.position).collect(),
+            asked: Vec::new(),
             starts: own,
-            goals,
+            waves: 0,
+            wave_began: 0.0,
+            ways: Vec::new(),
             ball,
-            worlds: vec![field(settings)?],
-            tasks: vec![Task { goal: Point::origin(), limits, world: 0 }; n],
+            placement,
+            rules,
+            tasks: vec![Task::new(Point::origin(), limits); n],
             conducts: vec![Conduct::Drift; opponents.len()],
             believed: bodies.iter().map(|b| b.state).collect(),
             orders: vec![Vec::new(); n],
@@ -148,13 +172,16 @@ impl Simulation {
             travelled: vec![0.0; n],
             switches: 0,
             stuck: 0.0,
-            metrics: Metrics { robots: n, ..Metrics::default() },
+            formation: (0.0, 0),
+            metrics: Metrics::default(),
             stopwatch: Stopwatch::new(1e6 * settings.period()),
             traced: true,
             trace: Trace { period_s: PICTURES, bodies: sides, ..Trace::default() },
             bodies,
             settings: settings.clone(),
-        })
+        };
+        simulation.direct(0.0);
+        Ok(simulation)
     }
 
     /// The same without a trace, whose length grows with the time.
@@ -170,7 +197,8 @@ impl Simulation {
 
     /// Whether it is over: all stand at their goals, or the time is up.
     pub fn is_over(&self) -> bool {
-        self.time() >= self.settings.duration_s || self.arrived.iter().all(Option::is_some)
+        let last = self.waves + 1 >= self.settings.waves;
+        self.time() >= self.settings.duration_s || (last && self.arrived.iter().all(Option::is_some))
     }
 
     /// The team.
@@ -204,15 +232,15 @@ impl Simulation {
             self.swap(&swap.planner, &swap.settings.to_string())?;
             self.next_swap += 1;
         }
+        self.next_wave(time);
         self.picture(time);
         let latency = self.settings.latency_ms * 1e-3;
         self.observe(time + latency, latency);
+        self.direct(time);
         let (own, opponents) = self.believed.split_at(n);
         let view = View { time, own, opponents, ball: self.ball };
-        self.play.direct(&view, &mut self.tasks);
-        self.play.oppose(&view, &mut self.conducts);
         let budget = self.budget;
-        self.team.plan(&view, &self.tasks, &self.worlds, self.seed, &|| budget.now(), clock);
+        self.team.plan(&view, &self.tasks, self.rules.worlds(), self.seed, &|| budget.now(), clock);
         self.stopwatch.frame(&self.team.call_times);
         self.count(period);
         for (orders, answer) in self.orders.iter_mut().zip(self.team.answers()) {
@@ -223,8 +251,8 @@ impl Simulation {
             orders.push((time + latency, order));
         }
         self.advance(time, period);
-        let (worlds, tasks) = (&self.worlds, &self.tasks);
-        self.referee.judge(time, period, &self.bodies, |robot| &worlds[tasks[robot].world]);
+        self.play.carry(&self.bodies[..n], &mut self.ball);
+        self.referee.judge(time, period, &self.bodies, &self.tasks, &self.rules);
         self.frame += 1;
         self.arrivals();
         Ok(())
@@ -239,6 +267,57 @@ impl Simulation {
             self.step(clock)?;
         }
         Ok(self.record())
+    }
+
+    /// What everybody is to do, from what is believed now.
+    fn direct(&mut self, time: f64) {
+        let (own, opponents) = self.believed.split_at(self.starts.len());
+        let view = View { time, own, opponents, ball: self.ball };
+        self.rules.update(self.settings.command(), seen(self.ball, self.placement));
+        for task in &mut self.tasks {
+            task.limits = self.limits;
+        }
+        self.play.direct(&view, &mut self.tasks);
+        self.play.oppose(&view, &mut self.conducts);
+        self.rules.apply(&mut self.tasks);
+        let asked = self.play.goals();
+        if asked != self.asked {
+            self.goals.clear();
+            self.goals.extend(asked.iter().zip(&self.tasks).map(|(goal, task)| self.rules.legal(task.role, *goal)));
+            self.asked = asked.to_vec();
+        }
+    }
+
+    /// Gives out new goals where those so far are done with.
+    fn next_wave(&mut self, time: f64) {
+        let done = time - self.wave_began >= self.settings.wave_s || self.arrived.iter().all(Option::is_some);
+        if !done || self.waves + 1 >= self.settings.waves {
+            return;
+        }
+        self.ways.extend(self.wave());
+        self.waves += 1;
+        self.wave_began = time;
+        self.arrived.fill(None);
+        self.travelled.fill(0.0);
+        let n = self.starts.len();
+        self.starts.clear();
+        self.starts.extend(self.bodies[..n].iter().map(|body| body.state));
+        self.play.next_wave();
+    }
+
+    /// What the own robots' ways come to in this wave so far.
+    fn wave(&self) -> Vec<RobotRecord> {
+        let (began, limits) = (self.wave_began, self.rules.limits(self.limits));
+        let way = |i: usize| RobotRecord {
+            start: self.starts[i].position.into(),
+            goal: self.goals[i].into(),
+            arrival_s: self.arrived[i].map(|at| at - began),
+            least_s: least_time(self.starts[i], self.goals[i], limits),
+            travelled: self.travelled[i],
+            collisions: self.referee.events.iter().filter(|e| e.time_s >= began && e.bodies.contains(&i)).count()
+                as u32,
+        };
+        (0..self.starts.len()).map(way).collect()
     }
 
     /// What the team believes of `then`, `ahead` seconds from now, when its answers take effect.
@@ -328,6 +407,10 @@ impl Simulation {
             };
             self.switches += u64::from(self.frame > 0 && LOOKS.iter().any(apart));
             let body = &self.bodies[i];
+            if let Some(place) = self.play.places().get(i) {
+                self.formation.0 += (body.state.position - place).norm();
+                self.formation.1 += 1;
+            }
             let away = (body.state.position - self.goals[i]).norm() > ARRIVED[0];
             if away && body.state.velocity.norm() < STANDING {
                 self.stuck += period;
@@ -346,7 +429,8 @@ impl Simulation {
 
     fn picture(&mut self, time: f64) {
         if self.traced && time + 1e-9 >= self.trace.frames.len() as f64 * PICTURES {
-            self.trace.frames.push(self.bodies.iter().map(|b| b.state.position.into()).collect());
+            let all = self.bodies.iter().map(|b| b.state).chain(self.ball);
+            self.trace.frames.push(all.map(|state| state.position.into()).collect());
         }
     }
 
@@ -354,17 +438,9 @@ impl Simulation {
     pub fn record(mut self) -> Record {
         self.picture(f64::INFINITY);
         let n = self.starts.len();
-        let mut robots: Vec<RobotRecord> = Vec::with_capacity(n);
-        for i in 0..n {
-            robots.push(RobotRecord {
-                start: self.starts[i].position.into(),
-                goal: self.goals[i].into(),
-                arrival_s: self.arrived[i],
-                least_s: least_time(self.starts[i], self.goals[i], self.limits),
-                travelled: self.travelled[i],
-                collisions: self.referee.events.iter().filter(|e| e.bodies.contains(&i)).count() as u32,
-            });
-        }
+        let last = self.wave();
+        let mut robots = std::mem::take(&mut self.ways);
+        robots.extend(last);
         let mean = |values: &mut dyn Iterator<Item = f64>| {
             let (sum, count) = values.fold((0.0, 0), |(sum, count), v| (sum + v, count + 1));
             (count > 0).then(|| sum / f64::from(count))
@@ -376,16 +452,19 @@ impl Simulation {
         let duration_s = self.time();
         let metrics = Metrics {
             duration_s,
+            robots: robots.len(),
             arrived: arrived.len(),
-            arrival_s: mean(&mut robots.iter().filter_map(|r| r.arrival_s)).filter(|_| arrived.len() == n),
+            arrival_s: mean(&mut robots.iter().filter_map(|r| r.arrival_s)).filter(|_| arrived.len() == robots.len()),
             least_s: mean(&mut robots.iter().map(|r| r.least_s)).unwrap_or(0.0),
             collisions: events.len() as u32,
             violations: self.referee.violations,
+            violation_s: self.referee.violation_s / n as f64,
             fouls: events.iter().filter(|e| e.foul).count() as u32,
             length_ratio: mean(ways),
             least_clearance: Some(self.referee.least_clearance).filter(|c| c.is_finite()),
             switches_per_s: self.switches as f64 / (duration_s * n as f64),
             stuck_s: self.stuck / n as f64,
+            formation_error: (self.formation.1 > 0).then(|| self.formation.0 / self.formation.1 as f64),
             ..self.metrics
         };
         self.trace.events = events;
@@ -397,18 +476,9 @@ fn build(kind: &str, settings: &str) -> Result<planner_control::Guard, Simulatio
     guard(kind, settings).map_err(|source| SimulationError::Build { planner: kind.to_owned(), source })
 }
 
-/// The empty field.
-fn field(settings: &Settings) -> Result<World, SceneError> {
-    let field = settings.league.field();
-    World::new(&Scene {
-        name: "field".into(),
-        unit: "m".into(),
-        robot_radius: ROBOT_RADIUS,
-        start: field.min,
-        goal: field.max,
-        field: Some(field),
-        obstacles: Vec::new(),
-    })
+/// The ball as rules see it.
+fn seen(ball: Option<State>, placement: Option<Point>) -> Option<Ball> {
+    ball.map(|ball| Ball { at: ball.position, target: placement })
 }
 
 /// Simulates `settings` from beginning to end; see [`Simulation`].

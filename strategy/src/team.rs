@@ -7,6 +7,7 @@ use planner_control::{Answer, Guard, Safety, stop_after, stop_in_time};
 
 use crate::Cooperation;
 use crate::league::ROBOT_RADIUS;
+use crate::roles::Role;
 
 /// What the team believes of the world in a frame. Own and opposing robots in a fixed order.
 #[derive(Debug, Clone, Copy)]
@@ -24,12 +25,23 @@ pub struct View<'a> {
 /// What one robot is to do.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Task {
+    /// What it is: plays say so, rules heed it.
+    pub role: Role,
     /// Where it is to stand.
     pub goal: Point,
     /// What it may do now: its own limits, or those of the rules.
     pub limits: Limits,
     /// Which of the worlds handed to [`Team::plan`] it moves in: what the rules keep it out of.
     pub world: usize,
+    /// Whether it is to brake and stand, wherever it is.
+    pub halt: bool,
+}
+
+impl Task {
+    /// Anybody's, in the first world.
+    pub fn new(goal: Point, limits: Limits) -> Self {
+        Self { role: Role::Field, goal, limits, world: 0, halt: false }
+    }
 }
 
 /// How a team plans.
@@ -165,6 +177,13 @@ impl Team {
         let world = &worlds[task.world];
         let situation = Situation::new(world, &movers, view.own[i], task.goal, task.limits, horizon, period);
         let result = match situation {
+            Ok(Situation { state, limits, .. }) if task.halt => {
+                brake(state, limits, &mut answer.trajectory);
+                answer.safety = Safety::Brake;
+                answer.goal = answer.trajectory.end().position;
+                answer.contact = first_contact(&answer.trajectory, world, &movers, horizon);
+                Ok(())
+            }
             Ok(situation) => {
                 let result = self.guards[i].answer(&situation, run, answer);
                 if !first && result.is_ok() && keeps(&self.before[i], answer, &situation, self.settings.hysteresis) {
