@@ -22,6 +22,8 @@ pub struct Arena {
     pub compile_us: f64,
     /// What it is for.
     pub set: SceneSet,
+    /// What moves in it, where something does.
+    pub simulation: Option<strategy::Settings>,
 }
 
 impl Arena {
@@ -31,7 +33,7 @@ impl Arena {
         let world = World::new(&scene)?;
         let compile_us = micros(began);
         scene.validate_ends(&world)?;
-        Ok(Self { scene, world, compile_us, set: SceneSet::Test })
+        Ok(Self { scene, world, compile_us, set: SceneSet::Test, simulation: None })
     }
 
     /// From the scene's start to its goal.
@@ -41,13 +43,22 @@ impl Arena {
 
     /// The scene and its exact optimum, or why that is not known.
     pub fn result(&self) -> SceneResult {
-        SceneResult { scene: self.scene.clone(), optimum: self.optimum(), set: self.set, simulation: None }
+        SceneResult {
+            scene: self.scene.clone(),
+            optimum: self.optimum(),
+            set: self.set,
+            simulation: self.simulation.clone(),
+        }
     }
 
     fn optimum(&self) -> Optimum {
+        let none = |reason| Optimum { length: None, path: Vec::new(), reason: Some(reason) };
+        if self.simulation.is_some() {
+            return none(Subject::Simulation.no_optimum().unwrap_or_default().to_owned());
+        }
         match self.problem() {
             Ok(problem) => optimum::of(&problem),
-            Err(e) => Optimum { length: None, path: Vec::new(), reason: Some(e.to_string()) },
+            Err(e) => none(e.to_string()),
         }
     }
 }
@@ -68,7 +79,10 @@ pub struct Campaign {
 impl Campaign {
     /// Compiles every scene.
     pub fn new(comparison: Comparison) -> Result<Self, SceneError> {
-        let arena = |entry: &SceneEntry| Ok(Arena { set: entry.set, ..Arena::new(entry.scene.clone())? });
+        let arena = |entry: &SceneEntry| {
+            let simulation = entry.simulation.clone();
+            Ok(Arena { set: entry.set, simulation, ..Arena::new(entry.scene.clone())? })
+        };
         let arenas = comparison.scenes.iter().map(arena).collect::<Result<_, SceneError>>()?;
         Ok(Self { comparison, arenas })
     }
@@ -127,7 +141,7 @@ impl Campaign {
 
     /// The results before the first run: everything but runs.
     pub fn empty_results(&self, jobs: usize) -> Results {
-        let Comparison { name, seed, repeats, planners, notes, .. } = &self.comparison;
+        let Comparison { name, seed, repeats, subject, planners, notes, .. } = &self.comparison;
         let mut manifest = machine::manifest(jobs);
         manifest.identity = self.identity();
         manifest.notes.clone_from(notes);
@@ -135,7 +149,7 @@ impl Campaign {
             name: name.clone(),
             seed: *seed,
             repeats: *repeats,
-            subject: Subject::Paths,
+            subject: *subject,
             protocol: String::new(),
             planners: planners
                 .iter()

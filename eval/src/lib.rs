@@ -24,6 +24,7 @@ pub mod results;
 pub mod runner;
 pub mod seeds;
 mod shell;
+mod simulate;
 pub mod snapshot;
 pub mod statistics;
 pub mod status;
