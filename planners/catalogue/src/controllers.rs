@@ -1,6 +1,7 @@
 //! The list of controllers: what moves a robot among obstacles that move.
 
 use planner_api::Controller;
+use planner_behaviour::Behaviour;
 use planner_control::Replan;
 use toml::de::DeTable;
 use toml::{Spanned, Table};
@@ -33,7 +34,12 @@ pub struct BuiltController {
 
 /// The controllers that are no planners, in the order of the documentation.
 pub fn controllers() -> &'static [ControllerKind] {
-    const KINDS: &[ControllerKind] = &[];
+    const KINDS: &[ControllerKind] = &[ControllerKind {
+        name: "behaviour",
+        summary: "The weighted sum of simple behaviours: to the goal, away from obstacles and robots, into formation",
+        source: "Fang 2009, chapter 5; Balch & Arkin 1998",
+        make: |settings| plain(settings, Behaviour::new),
+    }];
     KINDS
 }
 
@@ -68,7 +74,6 @@ pub fn build_controller_str(kind: &str, settings: &str) -> Result<BuiltControlle
 }
 
 /// The controller that `new` makes of validated settings, and those settings.
-#[allow(dead_code)]
 fn plain<S, C>(
     settings: Settings<'_>,
     new: impl FnOnce(S) -> Result<C, planner_api::SettingError>,
