@@ -42,19 +42,19 @@ impl Arena {
     }
 
     /// The scene and its exact optimum, or why that is not known.
-    pub fn result(&self) -> SceneResult {
+    pub fn result(&self, subject: Subject) -> SceneResult {
         SceneResult {
             scene: self.scene.clone(),
-            optimum: self.optimum(),
+            optimum: self.optimum(subject),
             set: self.set,
             simulation: self.simulation.clone(),
         }
     }
 
-    fn optimum(&self) -> Optimum {
+    fn optimum(&self, subject: Subject) -> Optimum {
         let none = |reason| Optimum { length: None, path: Vec::new(), reason: Some(reason) };
-        if self.simulation.is_some() {
-            return none(Subject::Simulation.no_optimum().unwrap_or_default().to_owned());
+        if let Some(reason) = subject.no_optimum() {
+            return none(reason.to_owned());
         }
         match self.problem() {
             Ok(problem) => optimum::of(&problem),
@@ -141,7 +141,7 @@ impl Campaign {
 
     /// The results before the first run: everything but runs.
     pub fn empty_results(&self, jobs: usize) -> Results {
-        let Comparison { name, seed, repeats, subject, planners, notes, .. } = &self.comparison;
+        let Comparison { name, seed, repeats, subject, protocol, planners, notes, .. } = &self.comparison;
         let mut manifest = machine::manifest(jobs);
         manifest.identity = self.identity();
         manifest.notes.clone_from(notes);
@@ -150,7 +150,7 @@ impl Campaign {
             seed: *seed,
             repeats: *repeats,
             subject: *subject,
-            protocol: String::new(),
+            protocol: protocol.as_ref().and_then(|p| toml::to_string(p).ok()).unwrap_or_default(),
             planners: planners
                 .iter()
                 .map(|p| {
@@ -170,7 +170,7 @@ impl Campaign {
                     }
                 })
                 .collect(),
-            scenes: self.arenas.iter().map(Arena::result).collect(),
+            scenes: self.arenas.iter().map(|arena| arena.result(*subject)).collect(),
             runs: Vec::new(),
             snapshots: Vec::new(),
             traces: Vec::new(),

@@ -1,6 +1,7 @@
 //! The bench: config → runs → verdicts → scores → statistics → report.
 
 pub mod analysis;
+mod behaviour;
 pub mod campaign;
 pub mod cli;
 pub mod compare;

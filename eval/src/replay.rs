@@ -16,7 +16,7 @@ use planner_api::{Budget, Frame, Observer, Plan, PopulationView, Run, View};
 use crate::campaign::{Arena, Campaign};
 use crate::config::PlannerEntry;
 use crate::report::FULL;
-use crate::results::{RunRecord, RunStatus};
+use crate::results::{RunRecord, RunStatus, Subject};
 use crate::snapshot::{MOST_GENERATIONS, Ruler, Snapshot, has_state, state};
 use crate::statistics::quantile;
 
@@ -26,7 +26,10 @@ pub use moving::traces;
 /// and planners. `runs` are the campaign's, sorted by repeat within scene and planner.
 pub fn snapshots(campaign: &Campaign, runs: &[RunRecord]) -> Vec<Snapshot> {
     let mut all = Vec::new();
-    for arena in campaign.arenas.iter().filter(|a| a.simulation.is_none()).take(FULL) {
+    if campaign.comparison.subject != Subject::Paths {
+        return all;
+    }
+    for arena in campaign.arenas.iter().take(FULL) {
         for entry in &campaign.comparison.planners {
             let of: Vec<&RunRecord> =
                 runs.iter().filter(|r| r.scene == arena.scene.name && r.planner == entry.label).collect();

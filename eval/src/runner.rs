@@ -26,7 +26,7 @@ use crate::results::{RunRecord, RunStatus};
 use crate::verdict::{Fault, Judge};
 use crate::work::Work;
 use crate::worker::Seat;
-use crate::{metrics, seeds, simulate};
+use crate::{behaviour, metrics, seeds, simulate};
 
 /// How many processes the bench keeps, all threads together: each holds three descriptors, of which many systems
 /// allow 1024 by default.
@@ -113,9 +113,11 @@ impl<'c> Worker<'c> {
             if self.work.done.contains(&(scene, index, repeat)) {
                 continue;
             }
-            let run = match &arena.simulation {
-                Some(settings) => Ok(simulate::run(&comparison.planners[index], &arena.scene.name, settings, seed).0),
-                None => {
+            let (entry, name) = (&comparison.planners[index], &arena.scene.name);
+            let run = match (&arena.simulation, &comparison.protocol) {
+                (Some(settings), _) => Ok(simulate::run(entry, name, settings, seed).0),
+                (None, Some(protocol)) => Ok(behaviour::run(entry, name, protocol, seed)),
+                (None, None) => {
                     self.make_room(index);
                     let run = self.seats[index].run(scene, arena, seed);
                     run.map(|run| judged(run, &judge, self.optima[scene]))

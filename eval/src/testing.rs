@@ -172,6 +172,7 @@ pub fn campaign(planners: Vec<PlannerEntry>) -> Campaign {
         seed: 3,
         repeats: 5,
         subject: Subject::Paths,
+        protocol: None,
         scenes,
         planners,
         notes: Vec::new(),

@@ -23,4 +23,4 @@ pub(crate) use curves::{Course, Step, cost_is_length};
 pub use curves::{Curves, Effort};
 pub use grid::Grid;
 pub(crate) use summary::counted_cost;
-pub use summary::{Summary, counted_length, summarise};
+pub use summary::{Summary, counted_gap, counted_length, summarise};

@@ -10,7 +10,7 @@ use super::{CheckArgs, say, warn};
 use crate::campaign::Arena;
 use crate::config::{Comparison, Disk};
 use crate::error::Error;
-use crate::results::Optimum;
+use crate::results::{Optimum, Subject};
 
 pub(super) fn check(args: &CheckArgs) -> Result<ExitCode, Error> {
     let mut code = ExitCode::SUCCESS;
@@ -49,7 +49,7 @@ fn check_one(file: &Path, optimum: bool) -> Result<String, Error> {
 /// The exact shortest length, or why there is none.
 fn say_optimum(scene: &Scene) -> Result<(), Error> {
     let arena = Arena::new(scene.clone()).map_err(|e| Error::Usage(e.to_string()))?;
-    let Optimum { length, reason, .. } = arena.result().optimum;
+    let Optimum { length, reason, .. } = arena.result(Subject::Paths).optimum;
     let found = length.map_or_else(|| reason.unwrap_or_default(), |length| format!("{length:.8} {}", scene.unit));
     say(format!("{}: exact optimum {found}", scene.name));
     Ok(())

@@ -23,8 +23,10 @@
 //! `{ ssl-log = "game.log.gz", frames = [10], team = "blue", robot = 3 }`; and from grid maps, see
 //! [`env_model::import::movingai`]: `{ movingai = "arena.map.scen", buckets = [0, 3], count = 10 }`.
 //!
-//! With a table `[simulation]` scenes move, and planners drive teams: see `simulation.rs`.
+//! With a table `[simulation]` scenes move, and planners drive teams: see `simulation.rs`. With a table `[behaviour]`
+//! planners are parameters of behaviour control, given or tuned: see `behaviour.rs`.
 
+mod behaviour;
 mod files;
 mod logs;
 mod movingai;
@@ -39,6 +41,7 @@ use std::collections::BTreeMap;
 
 use env_model::source::Source;
 use env_model::{FileError, Scene};
+use planner_behaviour::Protocol;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use toml::Spanned;
@@ -62,6 +65,8 @@ pub struct Comparison {
     pub repeats: u32,
     /// What its runs are.
     pub subject: Subject,
+    /// How parameters of behaviour control are judged, where they are.
+    pub protocol: Option<Protocol>,
     /// The scenes, names unique, those of the tuning set last.
     pub scenes: Vec<SceneEntry>,
     /// The planners in the file's order, labels unique.
@@ -94,7 +99,8 @@ struct Head {
     #[expect(dead_code, reason = "here so that it is a known key")]
     budget: Option<IgnoredAny>,
     planner: Option<IgnoredAny>,
-    simulation: Option<IgnoredAny>,
+    simulation: Option<Spanned<IgnoredAny>>,
+    behaviour: Option<Spanned<IgnoredAny>>,
 }
 
 impl Comparison {
@@ -103,7 +109,15 @@ impl Comparison {
         let source = Source { path, text };
         let mut table = source.parse_toml()?;
         let head: Head = from_table(&source, table.clone())?;
-        let subject = if head.simulation.is_some() { Subject::Simulation } else { Subject::Paths };
+        let subject = match (&head.simulation, &head.behaviour) {
+            (Some(_), Some(behaviour)) => {
+                let message = "[behaviour] beside [simulation]; expected one of the two";
+                return Err(source.error_at(behaviour.span(), message));
+            }
+            (Some(_), None) => Subject::Simulation,
+            (None, Some(_)) => Subject::Behaviour,
+            (None, None) => Subject::Paths,
+        };
         let scenes_said = head.scenes.is_some() || subject != Subject::Paths;
         for (key, found) in [("scenes", scenes_said), ("planner", head.planner.is_some())] {
             if !found {
@@ -128,11 +142,19 @@ impl Comparison {
         let budget = entries.remove("budget");
         let planners = planners::read(&source, entries.remove("planner"), budget, files.folder(), subject)?;
         let sets = [(SceneSet::Test, entries.remove("scenes")), (SceneSet::Tuning, entries.remove("tuning"))];
-        let (scenes, notes) = match entries.remove("simulation") {
-            Some(common) => (simulation::read(&source, common, sets)?, Vec::new()),
-            None => scenes::read(&source, sets, files)?,
+        let protocol = entries.remove("behaviour").map(|table| behaviour::protocol(&source, table)).transpose()?;
+        let (scenes, notes) = match (entries.remove("simulation"), &protocol) {
+            (Some(common), _) => (simulation::read(&source, common, sets)?, Vec::new()),
+            (None, Some(protocol)) => {
+                if let Some(scenes) = sets.into_iter().find_map(|(_, scenes)| scenes) {
+                    let message = "scenes beside [behaviour], which draws its own; expected none";
+                    return Err(source.error_at(scenes.span(), message));
+                }
+                (vec![behaviour::stand_in(protocol)], Vec::new())
+            }
+            (None, None) => scenes::read(&source, sets, files)?,
         };
-        Ok(Self { name: name.clone(), seed, repeats, subject, scenes, planners, notes })
+        Ok(Self { name: name.clone(), seed, repeats, subject, protocol, scenes, planners, notes })
     }
 
     /// The comparison that a store keeps.
@@ -185,12 +207,16 @@ impl Comparison {
                 None => format!("    {},\n", text(file)),
             };
             let lines: Vec<String> = of_set.map(line).collect();
-            if !lines.is_empty() {
+            if !lines.is_empty() && self.subject != Subject::Behaviour {
                 out.push_str(&format!("{key} = [\n{}]\n", lines.concat()));
             }
         }
         if self.subject == Subject::Simulation {
             out.push_str("\n[simulation]\n");
+        }
+        if let Some(protocol) = &self.protocol {
+            out.push('\n');
+            out.push_str(&behaviour::to_toml(protocol));
         }
         for planner in &self.planners {
             out.push('\n');

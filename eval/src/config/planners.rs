@@ -7,13 +7,14 @@ use std::time::{Duration, Instant};
 use env_model::FileError;
 use env_model::source::{Key, Source, span_of};
 use planner_api::{Budget, Planner};
+use planner_behaviour::{Parameters, Tuning};
 use planner_catalogue::BuildError;
 use serde::{Deserialize, Serialize};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::sweep::{Variant, expand};
-use super::{from_table, table_of};
+use super::{behaviour, from_table, table_of};
 use crate::results::Subject;
 
 /// The key that names an external planner's folder; no part of a campaign's identity.
@@ -33,6 +34,10 @@ pub enum Maker {
     External(External),
     /// A controller of the catalogue, one for each robot of a team.
     Controller,
+    /// Given parameters of behaviour control.
+    Parameters(Parameters),
+    /// Parameters of behaviour control that are searched for.
+    Tuning(Tuning),
 }
 
 /// The command of an external planner.
@@ -131,11 +136,11 @@ impl BudgetSpec {
 }
 
 impl PlannerEntry {
-    /// An instance for one thread; `None` for an external planner and for a controller.
+    /// An instance for one thread; `None` for anything but a planner of the catalogue.
     pub fn instance(&self) -> Option<Box<dyn Planner>> {
         match &self.maker {
             Maker::Catalogue(make) => Some(make()),
-            Maker::External(_) | Maker::Controller => None,
+            _ => None,
         }
     }
 
@@ -354,6 +359,10 @@ fn entry(
             source.error_at(command.span(), format!("a command for kind {kind:?}; expected kind = \"external\""))
         );
     }
+    if subject == Subject::Behaviour {
+        let (maker, settings) = behaviour::planner(source, &kind, kind_at, table)?;
+        return Ok(PlannerEntry { label, group, varied, kind, settings, budget, limits, maker });
+    }
     let places = table.clone();
     if subject == Subject::Simulation {
         let built =
@@ -396,7 +405,7 @@ fn variant(source: &Source<'_>, value: Spanned<DeValue<'_>>) -> Result<(String, 
     }
 }
 
-/// Teams are driven in the bench's own process.
+/// What moves is driven in the bench's own process.
 fn refuse_processes(
     source: &Source<'_>,
     kind: &str,
@@ -404,7 +413,7 @@ fn refuse_processes(
     keys: &DeTable<'_>,
 ) -> Result<(), FileError> {
     let expected =
-        "expected a planner of the catalogue without limits of a process, for a simulation runs in the bench's";
+        "expected a planner of the catalogue without limits of a process, for what moves runs in the bench's";
     if kind == "external" {
         return Err(source.error_at(kind_at, format!("an external planner; {expected}")));
     }
