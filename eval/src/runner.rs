@@ -22,7 +22,7 @@ use crate::campaign::{Arena, Campaign, micros};
 use crate::config::BudgetSpec;
 use crate::error::Error;
 use crate::recorder::Recorder;
-use crate::results::{RunRecord, RunStatus};
+use crate::results::{RunRecord, RunStatus, Subject};
 use crate::verdict::{Fault, Judge};
 use crate::work::Work;
 use crate::worker::Seat;
@@ -93,7 +93,10 @@ struct Worker<'c> {
 
 impl<'c> Worker<'c> {
     fn new(campaign: &'c Campaign, optima: &'c [Option<f64>], work: &'c Work) -> Self {
-        let seats = campaign.comparison.planners.iter().map(|entry| Seat::new(entry, work.isolate)).collect();
+        // What moves has no seat: it is built anew for every run.
+        let still = campaign.comparison.subject == Subject::Paths;
+        let planners = campaign.comparison.planners.iter().filter(|_| still);
+        let seats = planners.map(|entry| Seat::new(entry, work.isolate)).collect();
         Self { campaign, optima, work, seats, alive: VecDeque::new() }
     }
 
