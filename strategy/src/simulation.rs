@@ -111,13 +111,14 @@ impl Simulation {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let mut play = play(settings.play);
         let Setup { own, opponents, ball, goals } = play.setup(settings, &mut rng);
-        let guards = (0..own.len()).map(|_| build(planner.0, planner.1, settings)).collect::<Result<Vec<_>, _>>()?;
+        let guards = (0..own.len()).map(|_| build(planner.0, planner.1)).collect::<Result<Vec<_>, _>>()?;
         let team_settings = TeamSettings {
             period: settings.period(),
             horizon: settings.horizon_s,
             margin: settings.margin,
             cooperation: settings.cooperation,
             hysteresis: settings.hysteresis,
+            emergency_brake: settings.emergency_brake,
         };
         let bodies: Vec<Body> = own.iter().chain(&opponents).map(|state| Body::new(*state, limits)).collect();
         let body = |side: &str| TraceBody { side: side.to_owned(), radius: ROBOT_RADIUS };
@@ -188,7 +189,7 @@ impl Simulation {
     /// [`SimulationError::Build`]
     pub fn swap(&mut self, kind: &str, settings: &str) -> Result<(), SimulationError> {
         for robot in 0..self.starts.len() {
-            self.team.swap(robot, build(kind, settings, &self.settings)?);
+            self.team.swap(robot, build(kind, settings)?);
         }
         Ok(())
     }
@@ -392,9 +393,8 @@ impl Simulation {
     }
 }
 
-fn build(kind: &str, settings: &str, simulation: &Settings) -> Result<planner_control::Guard, SimulationError> {
-    guard(kind, settings, simulation.emergency_brake)
-        .map_err(|source| SimulationError::Build { planner: kind.to_owned(), source })
+fn build(kind: &str, settings: &str) -> Result<planner_control::Guard, SimulationError> {
+    guard(kind, settings).map_err(|source| SimulationError::Build { planner: kind.to_owned(), source })
 }
 
 /// The empty field.

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use planner_catalogue::controller_names;
-use strategy::{CallBudget, PlayKind, Settings, Simulation};
+use strategy::{CallBudget, Cooperation, PlayKind, Settings, Simulation, simulate};
 
 /// A cyclic sequence of numbers below `k` in which every ordered pair of them are neighbours once: the Lyndon words of
 /// length one and two in their order (de Bruijn 1946; Fredricksen & Maiorana 1978).
@@ -24,6 +24,7 @@ fn every_planner_takes_over_from_every_other() {
         robots: 2,
         opponents: 3,
         duration_s: 60.0,
+        cooperation: Cooperation::Priority,
         emergency_brake: true,
         ..Settings::default()
     };
@@ -44,6 +45,24 @@ fn every_planner_takes_over_from_every_other() {
             assert!(way <= 3.0 * period * (1.0 + 1e-9), "{kind}: robot {robot} jumps by {way} m");
         }
     }
-    let metrics = simulation.record().metrics;
-    assert_eq!(metrics.violations, 0, "nobody left the field: {metrics:?}");
+    let record = simulation.record();
+    assert_eq!(record.metrics.violations, 0, "nobody left the field: {:?}", record.metrics);
+    let mates = record.trace.events.iter().filter(|e| e.bodies[1] < 2).count();
+    assert_eq!(mates, 0, "mates do not touch: {:?}", record.trace.events);
+}
+
+#[test]
+fn a_team_that_brakes_in_time_never_collides_whoever_plans() {
+    let settings = Settings {
+        robots: 4,
+        duration_s: 2.0,
+        cooperation: Cooperation::Priority,
+        emergency_brake: true,
+        ..Settings::default()
+    };
+    let budget = CallBudget { iterations: Some(20), evaluations: Some(400), time: None };
+    for kind in controller_names() {
+        let metrics = simulate(&settings, (kind, ""), budget, 1, &|| 0.0).unwrap().metrics;
+        assert_eq!((metrics.collisions, metrics.violations), (0, 0), "{kind}: {metrics:?}");
+    }
 }

@@ -181,7 +181,8 @@ fn brakes_put_off_what_is_due() {
         }
     }
     let limits = Limits::new(3.0, 3.0).unwrap();
-    // 0.51 m before contact; 1.5 m/s stop within 0.375 m, 2 m/s within 0.67 m.
+    // 0.51 m before contact. 1.7 m/s stop within 0.48 m, after another sixtieth of a second's acceleration not; 1.5 m/s
+    // can be braked a period later too; 2 m/s need 0.67 m.
     let at = |speed: f64| State { position: Point::new(0.1, 0.0), velocity: Vector::new(speed, 0.0) };
     let ask = |speed: f64, brake: bool| {
         let situation = Situation::new(&world, &[], at(speed), Point::new(2.0, 0.0), limits, 2.0, 0.016).unwrap();
@@ -192,13 +193,13 @@ fn brakes_put_off_what_is_due() {
             .unwrap();
         answer
     };
-    let unbraked = ask(1.5, false);
+    assert_eq!(ask(1.5, true).safety, Safety::Ok);
+    let unbraked = ask(1.7, false);
     assert_eq!(unbraked.safety, Safety::Ok);
-    // 0.51 = 1.5t + 1.5t²
-    let expected = (2.25f64 + 4.0 * 1.5 * 0.51).sqrt();
-    let expected = (expected - 1.5) / 3.0;
+    // 0.51 = 1.7t + 1.5t²
+    let expected = ((1.7f64 * 1.7 + 4.0 * 1.5 * 0.51).sqrt() - 1.7) / 3.0;
     assert!((unbraked.contact.unwrap().time - expected).abs() < 1e-7, "{:?}", unbraked.contact);
-    let braked = ask(1.5, true);
+    let braked = ask(1.7, true);
     assert_eq!((braked.safety, braked.contact), (Safety::Brake, None));
     let late = ask(2.0, true);
     assert_eq!(late.safety, Safety::Brake);
