@@ -3,6 +3,9 @@
 use planner_api::Controller;
 use planner_behaviour::Behaviour;
 use planner_control::Replan;
+use planner_dynamic_window::DynamicWindow;
+use planner_orca::Orca;
+use planner_potential_field::MovingPotentialField;
 use toml::de::DeTable;
 use toml::{Spanned, Table};
 
@@ -34,12 +37,34 @@ pub struct BuiltController {
 
 /// The controllers that are no planners, in the order of the documentation.
 pub fn controllers() -> &'static [ControllerKind] {
-    const KINDS: &[ControllerKind] = &[ControllerKind {
-        name: "behaviour",
-        summary: "The weighted sum of simple behaviours: to the goal, away from obstacles and robots, into formation",
-        source: "Fang 2009, chapter 5; Balch & Arkin 1998",
-        make: |settings| plain(settings, Behaviour::new),
-    }];
+    const KINDS: &[ControllerKind] = &[
+        ControllerKind {
+            name: "behaviour",
+            summary: "The weighted sum of simple behaviours: to the goal, away from obstacles and robots, into formation",
+            source: "Fang 2009, chapter 5; Balch & Arkin 1998",
+            make: |settings| plain(settings, Behaviour::new),
+        },
+        ControllerKind {
+            name: "orca",
+            summary: "Of the velocities that leave each mate half of the evasion and take all of it from opponents, the \
+                      one nearest to the goal's",
+            source: "van den Berg, Guy, Lin & Manocha 2011",
+            make: |settings| plain(settings, Orca::new),
+        },
+        ControllerKind {
+            name: "dynamic-window",
+            summary: "Of the velocities in short reach from which one can brake before contact, the one of best heading, \
+                      clearance and speed",
+            source: "Fox, Burgard & Thrun 1997",
+            make: |settings| plain(settings, DynamicWindow::new),
+        },
+        ControllerKind {
+            name: "moving-potential-field",
+            summary: "The force of a potential in which obstacles repel by how near they are and how fast they approach",
+            source: "Ge & Cui 2002",
+            make: |settings| plain(settings, MovingPotentialField::new),
+        },
+    ];
     KINDS
 }
 

@@ -90,14 +90,16 @@ impl DynamicWindow {
             }
             run.spent.evaluations += 1;
             let margin = self.settings.margin;
+            let danger = |trial: &Trajectory, until| first_contact(trial, situation, margin, until);
             ramp(state, velocity, limits.acceleration, &mut self.trial);
-            let held = first_contact(&self.trial, situation, margin, horizon);
             stop(limits.acceleration, &mut self.trial);
-            let stopped = self.trial.duration();
-            let contact = first_contact(&self.trial, situation, margin, stopped);
+            let contact = danger(&self.trial, self.trial.duration());
             let admissible = contact.is_none();
-            let clearance = held.map_or(1.0, |t| t / horizon);
-            let value = contact.unwrap_or(worth + self.settings.clearance * clearance);
+            let value = contact.unwrap_or_else(|| {
+                ramp(state, velocity, limits.acceleration, &mut self.trial);
+                let clearance = danger(&self.trial, horizon).map_or(1.0, |t| t / horizon);
+                worth + self.settings.clearance * clearance
+            });
             if best.is_none_or(|b| (admissible, value) > (b.admissible, b.value)) {
                 best = Some(Best { velocity, admissible, value });
             }

@@ -42,11 +42,7 @@ fn on_border(planes: &[HalfPlane], i: usize, reach: &Reach, objective: Objective
             continue;
         }
         let t = offset / sine;
-        if sine > 0.0 {
-            high = high.min(t)
-        } else {
-            low = low.max(t)
-        }
+        (low, high) = if sine > 0.0 { (low, high.min(t)) } else { (low.max(t), high) };
         if low > high {
             return None;
         }

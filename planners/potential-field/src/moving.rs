@@ -1,10 +1,10 @@
 //! The potential field among obstacles that move: repulsion by position *and* velocity.
 //!
-//! An obstacle repels only what approaches it. With n the unit vector towards it, ρ the clearance, v_RO = (v − v_obs)·n
-//! the speed of approach, ρ_m = v_RO²/(2a) the distance in which it can be braked away, and x = ρ − ρ_m,
+//! An obstacle repels only what approaches it. With n the unit vector towards it, ρ the clearance, w = (v − v₀)·n
+//! the speed of approach, b = w²/(2a) the distance in which it can be braked away, and x = ρ − b,
 //!
-//! - U = η (1/x − 1/ρ0) for v_RO > 0 and x < ρ0, else 0;
-//! - F = −∇ₚU − ∇ᵥU = η/x² ( −(1 + v_RO/a) n + v_RO v⊥/(D a) n⊥ ), v⊥ n⊥ the rest of the relative velocity and D the
+//! - U = η (1/x − 1/ρ0) for w > 0 and x < ρ0, else 0;
+//! - F = −∇ₚU − ∇ᵥU = η/x² ( −(1 + w/a) n + w v⊥/(D a) n⊥ ), v⊥ n⊥ the rest of the relative velocity and D the
 //!   distance to the obstacle's core: it brakes the approach, and pushes on to the side to which one passes already;
 //! - the goal, which stands still, attracts with 2αₚ min(d, d\*) towards it and brakes with 2αᵥ v.
 //!
@@ -216,7 +216,7 @@ mod tests {
         let n = Vector::x();
         assert_eq!(field.repulsion(0.01, 0.1, n, Vector::new(-0.1, 1.0)), Vector::zeros());
         assert_eq!(field.repulsion(0.3, 0.4, n, Vector::new(0.1, 0.0)), Vector::zeros());
-        // Nearer by ρ_m = ½: the same distance, faster.
+        // Nearer by b = ½: the same distance, faster.
         assert!(field.repulsion(0.3, 0.4, n, Vector::new(1.0, 0.0)).x < 0.0);
     }
 

@@ -138,9 +138,14 @@ pub fn measure(make: &dyn Fn() -> Box<dyn Controller>) {
         let state = State { position: at_random(&mut draw), velocity: velocity_at_random(&mut draw, 3.0) };
         let goal = at_random(&mut draw);
         let situation = Situation::new(&world, &movers, state, goal, limits(), HORIZON, FRAME).unwrap();
-        let begin = Instant::now();
-        controller.control(&situation, &mut Run::new(seed), &mut trajectory).unwrap();
-        times.push(begin.elapsed().as_secs_f64() * 1e6);
+        // The least of three: what else the machine does is not the controller's.
+        let mut least = f64::INFINITY;
+        for _ in 0..3 {
+            let begin = Instant::now();
+            controller.control(&situation, &mut Run::new(seed), &mut trajectory).unwrap();
+            least = least.min(begin.elapsed().as_secs_f64() * 1e6);
+        }
+        times.push(least);
     }
     times.sort_by(f64::total_cmp);
     let at = |q: f64| times[(q * times.len() as f64) as usize];
