@@ -6,6 +6,8 @@ use planner_control::Replan;
 use planner_dynamic_window::DynamicWindow;
 use planner_orca::Orca;
 use planner_potential_field::MovingPotentialField;
+use planner_sampled_bang_bang::SampledBangBang;
+use planner_space_time::Sipp;
 use toml::de::DeTable;
 use toml::{Spanned, Table};
 
@@ -63,6 +65,18 @@ pub fn controllers() -> &'static [ControllerKind] {
             summary: "The force of a potential in which obstacles repel by how near they are and how fast they approach",
             source: "Ge & Cui 2002",
             make: |settings| plain(settings, MovingPotentialField::new),
+        },
+        ControllerKind {
+            name: "bang-bang",
+            summary: "The best of many bang-bang trajectories by way of intermediate destinations, checked in time",
+            source: "practice of TIGERs Mannheim and ER-Force in the Small Size League",
+            make: |settings| plain(settings, SampledBangBang::new),
+        },
+        ControllerKind {
+            name: "sipp",
+            summary: "A* over grid cells and the times at which they are safe, then legs within the robot's limits",
+            source: "Phillips & Likhachev 2011, ICRA, 5628-5635",
+            make: |settings| plain(settings, Sipp::new),
         },
     ];
     KINDS

@@ -15,9 +15,9 @@
 //!
 //! What movers do behind the horizon is unknown: a rest is free that lasts until then.
 //!
-//! Sources: TIGERs Mannheim, *Extended Team Description for RoboCup 2019* and the released code (`TrajPathFinderV4`:
-//! intermediate destinations in a star and at random, several connection times, the last one again); ER-Force,
-//! *Extended Team Description for RoboCup 2020* (sampled trajectories, slower ones, nearest escape).
+//! Sources: TIGERs Mannheim, released code of Sumatra (package `edu.tigers.sumatra.pathfinder`: paths of connected
+//! bang-bang trajectories over intermediate destinations) and extended team descriptions; ER-Force, extended team
+//! descriptions (sampled trajectories).
 
 mod controller;
 mod settings;

@@ -1,7 +1,7 @@
 //! Planning in space and time every frame.
 
-use env_model::CellGrid;
 use env_model::motion::{State, Trajectory, bang_bang, brake};
+use env_model::{CellGrid, Point, Vector};
 use planner_api::{ControlError, Controller, Outcome, Run, SettingError, Situation};
 use planner_control::Foresight;
 
@@ -19,6 +19,8 @@ pub struct Sipp {
     search: Search,
     retime: Retime,
     way: Vec<Stop>,
+    /// The way from the start to a cell.
+    join: Trajectory,
 }
 
 impl Sipp {
@@ -34,6 +36,7 @@ impl Sipp {
             search: Search::default(),
             retime: Retime::default(),
             way: Vec::new(),
+            join: Trajectory::default(),
         })
     }
 
@@ -65,12 +68,25 @@ impl Controller for Sipp {
         let start = if self.foresight.can_stop(situation, trajectory) {
             (stand, trajectory.duration())
         } else {
+            trajectory.begin(State::at_rest(state.position));
             (state.position, 0.0)
         };
         let extent = world.extent().including(start.0).including(goal);
         let grid = CellGrid::along_longer_side(&extent, self.settings.cells);
         let query = Query { world, movers, horizon, start, goal, speed: self.settings.cruise * limits.speed };
-        let found = self.search.run(&grid, &query, run, &mut self.way);
+        let (foresight, join) = (&mut self.foresight, &mut self.join);
+        let free = |to: Point, depart: f64, arrive: f64| {
+            join.copy_from(trajectory);
+            join.push(depart - start.1, Vector::zeros());
+            join.end_at(State {
+                position: start.0,
+                velocity: (to - start.0) / (arrive - depart).max(f64::MIN_POSITIVE),
+            });
+            join.push(arrive - depart, Vector::zeros());
+            join.end_at(State::at_rest(to));
+            foresight.contact(situation, join, arrive) >= arrive
+        };
+        let found = self.search.run(&grid, &query, free, run, &mut self.way);
         let whole = self.retime.run(situation, &mut self.foresight, &self.way, trajectory);
         let moves = trajectory.duration() > 0.0;
         if !moves || !self.foresight.can_stop(situation, trajectory) {

@@ -80,12 +80,20 @@ pub struct Search {
 }
 
 /// How far from start and goal cells may be by which a way joins the grid, in cells.
-const RINGS: isize = 2;
+const RINGS: isize = 1;
 
 impl Search {
     /// The way that arrives first, into `way`; whether it leads to the goal. Where none does, the way to the cell
     /// nearest to the goal; empty where there is no way at all.
-    pub fn run(&mut self, grid: &CellGrid, query: &Query<'_, '_>, run: &mut Run<'_>, way: &mut Vec<Stop>) -> bool {
+    /// `free(to, depart, arrive)` tells whether the straight way from the start is.
+    pub fn run(
+        &mut self,
+        grid: &CellGrid,
+        query: &Query<'_, '_>,
+        mut free: impl FnMut(Point, f64, f64) -> bool,
+        run: &mut Run<'_>,
+        way: &mut Vec<Stop>,
+    ) -> bool {
         let Query { world, movers, horizon, start, goal, speed } = *query;
         way.clear();
         grid.occupy(world, &mut self.blocked);
@@ -100,7 +108,7 @@ impl Search {
             for interval in self.intervals.of(cell) {
                 let safe = self.intervals.get(interval);
                 let time = safe.begin.max(start.1 + distance / speed);
-                if time < safe.end {
+                if time < safe.end && free(grid.centre(cell), time - distance / speed, time) {
                     self.reach(interval, cell, time, interval as u32, bound(cell, time));
                 }
             }

@@ -30,7 +30,7 @@ fn a_team_swaps_places_without_collision() {
 #[ignore = "a measurement"]
 fn a_hundred_seeds() {
     for (name, knowledge) in [("team", Knowledge::Team), ("independent", Knowledge::Independent)] {
-        let outcomes: Vec<_> = (0..100)
+        let outcomes: Vec<_> = (0..20)
             .map(|seed| drive(&mut controllers(8), &circle(8, seed), knowledge, seed, 20.0, |_, _, _| {}))
             .collect();
         let count = |f: &dyn Fn(&team::Outcome) -> bool| outcomes.iter().filter(|o| f(o)).count();
