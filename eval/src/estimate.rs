@@ -61,8 +61,7 @@ impl Estimate {
             if cold { 0.0 } else { limits[planner].unwrap_or(0.0) * n.min(work.jobs) as f64 }
         };
         let rows = used.iter().zip(&limits);
-        let warm: f64 =
-            rows.flat_map(|(row, l)| row.iter().enumerate().map(|(planner, n)| warm(planner, l, *n))).sum();
+        let warm: f64 = rows.flat_map(|(row, l)| row.iter().enumerate().map(|(planner, n)| warm(planner, l, *n))).sum();
         let needed = |planner: usize| used.iter().any(|row| row[planner] > 0);
         let unbounded: Vec<String> = (0..planners.len())
             .filter(|planner| limits.iter().any(|l| l[*planner].is_none()) && needed(*planner))

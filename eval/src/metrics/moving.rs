@@ -37,9 +37,12 @@ pub const MOVING: [MovingMetric; 33] = [
     }),
     counted("arrival_share", "1", "arrived / robots", |m| Some(m.metrics.arrived as f64 / m.metrics.robots as f64)),
     counted("arrival_s", "s", "mean time of arrival; empty unless all arrived", |m| m.metrics.arrival_s),
-    counted("least_s", "s", "mean over robots of the least time that their limits allow with nothing in the way", |m| {
-        Some(m.metrics.least_s)
-    }),
+    counted(
+        "least_s",
+        "s",
+        "mean over robots of the least time that their limits allow with nothing in the way",
+        |m| Some(m.metrics.least_s),
+    ),
     counted("time_ratio", "1", "arrival_s / least_s; empty unless all arrived", |m| {
         m.metrics.time_ratio().filter(|r| r.is_finite())
     }),
@@ -62,13 +65,21 @@ pub const MOVING: [MovingMetric; 33] = [
     counted("violations_per_min", "1/min", "violations a simulated minute", |m| {
         Some(f64::from(m.metrics.violations) * 60.0 / m.metrics.duration_s)
     }),
-    counted("least_clearance", "m", "least distance from hull to hull of an own robot and another, negative in contact", |m| {
-        m.metrics.least_clearance
+    counted(
+        "least_clearance",
+        "m",
+        "least distance from hull to hull of an own robot and another, negative in contact",
+        |m| m.metrics.least_clearance,
+    ),
+    counted(
+        "switches_per_s",
+        "1/s",
+        "how often a robot's plan changes by more than its radius within the next second",
+        |m| Some(m.metrics.switches_per_s),
+    ),
+    counted("stuck_s", "s", "mean time for which a robot stood elsewhere than at its goal", |m| {
+        Some(m.metrics.stuck_s)
     }),
-    counted("switches_per_s", "1/s", "how often a robot's plan changes by more than its radius within the next second", |m| {
-        Some(m.metrics.switches_per_s)
-    }),
-    counted("stuck_s", "s", "mean time for which a robot stood elsewhere than at its goal", |m| Some(m.metrics.stuck_s)),
     counted("formation_error", "m", "mean distance of robots to their places, where there is a formation", |m| {
         m.metrics.formation_error
     }),
@@ -81,9 +92,7 @@ pub const MOVING: [MovingMetric; 33] = [
     counted("evaluations", "count", "evaluations of the controllers' own objectives", |m| {
         Some(m.metrics.work[1] as f64)
     }),
-    counted("collision_checks", "count", "tests of one segment against the world", |m| {
-        Some(m.metrics.work[2] as f64)
-    }),
+    counted("collision_checks", "count", "tests of one segment against the world", |m| Some(m.metrics.work[2] as f64)),
     timed("call_p50_us", "wall time of one call for one robot: median", |m| Some(m.compute.call_us[0])),
     timed("call_p99_us", "99 % of the calls take at most this", |m| Some(m.compute.call_us[1])),
     timed("call_p999_us", "99.9 % of the calls take at most this", |m| Some(m.compute.call_us[2])),

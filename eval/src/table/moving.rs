@@ -31,7 +31,8 @@ pub fn simulations(results: &Results, scene: Option<&str>) -> String {
 }
 
 fn row(s: &MovingSummary) -> [String; 11] {
-    let over = if s.time_ratio.is_finite() { format!("+{}", format::percent(s.time_ratio - 1.0)) } else { "∞".into() };
+    let over =
+        if s.time_ratio.is_finite() { format!("+{}", format::percent(s.time_ratio - 1.0)) } else { "∞".into() };
     let [p50, p99, max] = s.call_us.map(format::time);
     [
         s.planner.clone(),
