@@ -21,6 +21,9 @@
 //! - Objective smoothing (σ in the paper) widens clearances of sampled arcs seen by a sonar; exact contact needs none.
 //! - Where nothing is admissible, the velocity whose contact comes last.
 //!
+//! Robots that all drive so hardly ever touch, but among mates they wait for each other: in most circle swaps of eight
+//! they stand in a ring until the time is over. The objective has no term that would let one give way.
+//!
 //! Source: D. Fox, W. Burgard & S. Thrun, *The dynamic window approach to collision avoidance*, IEEE Robotics &
 //! Automation Magazine 4(1):23–33, 1997, DOI 10.1109/100.580977.
 

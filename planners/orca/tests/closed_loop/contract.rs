@@ -120,6 +120,7 @@ pub fn survives_hostile_input(make: &dyn Fn() -> Box<dyn Controller>) {
 
 /// Prints shares and times.
 pub fn measure(make: &dyn Fn() -> Box<dyn Controller>) {
+    measure_time(make);
     for (radius, jitter) in [(2.0, 0.0), (2.0, 0.05), (2.5, 0.1), (3.0, 0.1), (3.0, 0.3)] {
         let result = shares(100, |seed| circle_swap(make, 8, radius, jitter, seed));
         println!("circle of {radius} m, jitter {jitter}: free, arrived, time {result:.3?}");
@@ -128,6 +129,9 @@ pub fn measure(make: &dyn Fn() -> Box<dyn Controller>) {
         let result = shares(200, |seed| crossing(make, count, seed));
         println!("{count} crossing: free, arrived, time {result:.3?}");
     }
+}
+
+fn measure_time(make: &dyn Fn() -> Box<dyn Controller>) {
     let world = pitch();
     let mut draw = Draw(3);
     let mut controller = make();
