@@ -52,7 +52,7 @@ fn disc(mover: &Mover<'_>) -> (Point, f64) {
 pub fn for_each_cover(mover: &Mover<'_>, p: Point, horizon: f64, mut visit: impl FnMut(Interval)) {
     let (centre, radius) = disc(mover);
     for_each_stretch(mover, horizon, |begin, piece| {
-        covers(&piece, begin, centre, radius + mover.margin, p, &mut visit)
+        covers(&piece, begin, centre, radius + mover.margin, p, &mut visit);
     });
 }
 

@@ -21,7 +21,7 @@ impl Retime {
     ///
     /// From where it is the robot goes at once to the farthest stop that it can reach free (string pulling in time):
     /// as fast as it can, or so slowly that it keeps the stop's time, or, standing, after a wait that does. There it
-    /// stops, which all but the last robot of a queue never comes to do, since it plans anew before.
+    /// stops, in the plan: by then it has planned anew, mostly with a farther stop in reach.
     pub fn run(
         &mut self,
         situation: &Situation<'_>,
