@@ -208,7 +208,7 @@ mod tests {
         };
         // Exact: not a bit depends on machine or build.
         assert_eq!(last(Coding::Binary), Generation { maximum: 0.845_862_960_886_380_1, mean: 0.800_913_120_055_884 });
-        assert_eq!(last(Coding::Real), Generation { maximum: 0.830_575_241_076_455_6, mean: 0.765_441_024_112_202_6 });
+        assert_eq!(last(Coding::Real), Generation { maximum: 0.830_575_241_076_455_6, mean: 0.765_441_024_412_202_6 });
     }
 
     #[test]
