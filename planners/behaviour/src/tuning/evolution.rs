@@ -200,6 +200,18 @@ mod tests {
     }
 
     #[test]
+    fn the_result_is_the_same_everywhere() {
+        let (protocol, tuning) = small();
+        let last = |coding| {
+            let tuning = Tuning { coding, redraw: true, ..tuning.clone() };
+            tune(&protocol, &tuning, &mut Run::new(5)).unwrap().generations[6]
+        };
+        // Exact: not a bit depends on machine or build.
+        assert_eq!(last(Coding::Binary), Generation { maximum: 0.845_862_960_886_380_1, mean: 0.800_913_120_055_884 });
+        assert_eq!(last(Coding::Real), Generation { maximum: 0.830_575_241_076_455_6, mean: 0.765_441_024_412_202_6 });
+    }
+
+    #[test]
     fn new_scenarios_every_generation() {
         let (protocol, tuning) = small();
         let tuning = Tuning { redraw: true, selection: Selection::Tournament, ..tuning };
