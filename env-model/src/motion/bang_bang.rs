@@ -100,8 +100,8 @@ fn shares(d: Vector, v: Vector, limits: Limits) -> [f64; 2] {
 
 /// Bounds of u = sin α/(sin α + cos α) within which the sum of both axes' speeds is never above the limit V.
 ///
-/// That is so for |vₓ| ≤ V cos α and |v_y| ≤ V sin α, and also where one axis must first brake down to its share, if it is
-/// there before the other one has reached its own: |vₓ|/cos α + |v_y|/sin α ≤ 2V (until then the square of the speed is
+/// That is so for `|vₓ| ≤ V cos α` and `|v_y| ≤ V sin α`, and also where one axis must first brake down to its share, if it is
+/// there before the other one has reached its own: `|vₓ|/cos α + |v_y|/sin α ≤ 2V` (until then the square of the speed is
 /// convex in time, and at both ends at most V²). At full speed in the direction β that is α between β and (π − β)/3.
 fn range(v: Vector, limit: f64) -> (f64, f64) {
     let u = |cos: f64, sin: f64| sin / (sin + cos);
