@@ -3,7 +3,7 @@
 //!
 //! The x axis gets cos α of speed and acceleration, the y axis sin α; α is chosen so that both arrive together. From
 //! rest that is the straight line and optimal; from a moving start better motions exist by a few per cent. Unlike the
-//! original, α keeps both axes within their share of the speed from the beginning, else the sum could be too fast.
+//! original, α is chosen so that the sum of both is never too fast, whatever the start.
 
 use super::axis::{Phases, quickest, time};
 use super::{Limits, State, Trajectory};
@@ -63,16 +63,9 @@ fn shares(d: Vector, v: Vector, limits: Limits) -> [f64; 2] {
             std::array::from_fn(|i| time(d[i], v[i], shares[i] * limits.speed, shares[i] * limits.acceleration));
         if x + y > 0.0 { (x - y) / (x + y) } else { 0.0 }
     };
-    // cos α ≥ |vₓ|/speed and sin α ≥ |v_y|/speed; the ends meet at full speed.
-    let [x, y] = [v.x, v.y].map(|v| (v.abs() / limits.speed).min(1.0));
-    let other = |share: f64| (1.0 - share * share).sqrt();
-    let mut low = y / (y + other(y));
-    let mut high = (other(x) / (x + other(x))).max(low);
+    let (mut low, mut high) = range(v, limits.speed);
     // From rest both arrive together on the straight line: a good guess otherwise.
-    let mut u = (d.y.abs() / (d.x.abs() + d.y.abs())).clamp(low, high);
-    if u.is_nan() {
-        u = low;
-    }
+    let mut u = (d.y.abs() / (d.x.abs() + d.y.abs())).max(low).min(high);
     let [mut at_low, mut at_high] = [late(low), late(high)];
     if at_low >= 0.0 || at_high <= 0.0 {
         return shares(if at_low >= 0.0 { low } else { high });
@@ -102,14 +95,32 @@ fn shares(d: Vector, v: Vector, limits: Limits) -> [f64; 2] {
             break;
         }
     }
-    shares(u.clamp(low, high))
+    shares(u.max(low).min(high))
+}
+
+/// Bounds of u = sin α/(sin α + cos α) within which the sum of both axes' speeds is never above the limit V.
+///
+/// That is so for `|vₓ| ≤ V cos α` and `|v_y| ≤ V sin α`, and also where one axis must first brake down to its share, if it is
+/// there before the other one has reached its own: `|vₓ|/cos α + |v_y|/sin α ≤ 2V` (until then the square of the speed is
+/// convex in time, and at both ends at most V²). At full speed in the direction β that is α between β and (π − β)/3.
+fn range(v: Vector, limit: f64) -> (f64, f64) {
+    let u = |cos: f64, sin: f64| sin / (sin + cos);
+    let other = |share: f64| (1.0 - share * share).sqrt();
+    let [x, y] = [v.x, v.y].map(|v| (v.abs() / limit).min(1.0));
+    let (low, high) = (u(other(y), y), u(x, other(x)));
+    let beta = libm::atan2(y, x);
+    let third = (std::f64::consts::PI - beta) / 3.0;
+    let third = u(libm::cos(third), libm::sin(third));
+    let low = low.min(third);
+    (low, high.max(third).max(low))
 }
 
 /// Appends the motion whose axes follow `phases`.
 fn merge(phases: [Phases; 2], out: &mut Trajectory) {
     let mut at = [0, 0];
     let mut left = [phases[0][0].0, phases[1][0].0];
-    loop {
+    // Each step ends a phase of one axis at least.
+    for _ in 0..6 {
         for i in 0..2 {
             while left[i] <= 0.0 && at[i] < 3 {
                 at[i] += 1;

@@ -93,12 +93,12 @@ impl Earliest {
 
     fn insert(&mut self, t: f64) {
         let at = self.times[..self.len].partition_point(|earlier| *earlier < t);
-        if !(t > self.after) || at == TIMES || (at < self.len && self.times[at] == t) {
-            return;
+        let known = at < self.len && self.times[at] == t;
+        if t > self.after && at < TIMES && !known {
+            self.len = (self.len + 1).min(TIMES);
+            self.times.copy_within(at..self.len - 1, at + 1);
+            self.times[at] = t;
         }
-        self.len = (self.len + 1).min(TIMES);
-        self.times.copy_within(at..self.len - 1, at + 1);
-        self.times[at] = t;
     }
 
     fn is_empty(&self) -> bool {
