@@ -3,7 +3,7 @@
 use env_model::motion::{Limits, Mover, Path, Side, State, Trajectory, brake, first_contact};
 use env_model::{Point, World};
 use planner_api::{Budget, ControlError, Counters, Run, Situation, seed::splitmix64};
-use planner_control::{Answer, Guard, Safety, stop_after, stop_in_time};
+use planner_control::{Answer, Guard, Safety};
 
 use crate::Cooperation;
 use crate::league::ROBOT_RADIUS;
@@ -73,7 +73,7 @@ pub struct Team {
     answers: Vec<Answer>,
     /// Answers of the frame before, seen from now.
     before: Vec<Answer>,
-    /// Everybody's way to stop: from now, and of those who have planned, after following their answers for a period.
+    /// Everybody's way to stop, from now.
     stops: Vec<Trajectory>,
     scratch: Answer,
     frame: u64,
@@ -150,7 +150,6 @@ impl Team {
             let began = clock();
             self.one(i, view, task, worlds, first, &mut run, &mut answer);
             self.call_times.push(clock() - began);
-            stop_after(&answer.trajectory, self.settings.period, task.limits, &mut self.stops[i]);
             self.scratch = std::mem::replace(&mut self.answers[i], answer);
             self.work.iterations += run.spent.iterations;
             self.work.evaluations += run.spent.evaluations;
@@ -191,10 +190,7 @@ impl Team {
                     answer.contact = None;
                 }
                 if self.settings.emergency_brake {
-                    let movers = self::movers(&self.settings, i, view, |j| &self.stops[j]);
-                    let mut stopping = situation;
-                    stopping.movers = &movers;
-                    stop_in_time(&stopping, answer);
+                    self.guards[i].stop_in_time(&situation, answer);
                 }
                 result
             }

@@ -4,7 +4,7 @@ use env_model::Point;
 use env_model::motion::{Contact, Trajectory, bang_bang, brake, first_contact};
 use planner_api::{ControlError, Controller, Outcome, Run, Situation};
 
-use crate::{nearest_free, stop_in_time};
+use crate::{Foresight, nearest_free};
 
 /// What kind of answer it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,15 +59,18 @@ pub struct Guard {
     controller: Box<dyn Controller>,
     /// Whether it brakes while it still can stop in time.
     emergency_brake: bool,
+    foresight: Foresight,
+    stop: Trajectory,
 }
 
 impl Guard {
     /// Guards `controller`, which decides alone unless it finds nothing.
     pub fn new(controller: Box<dyn Controller>) -> Self {
-        Self { controller, emergency_brake: false }
+        Self { controller, emergency_brake: false, foresight: Foresight::default(), stop: Trajectory::default() }
     }
 
-    /// Whether to brake where the robot could no longer stop in time one period later: see [`stop_in_time`].
+    /// Whether to brake where the robot could no longer stop in time one period later: [`Guard::stop_in_time`] at the
+    /// end of every answer.
     #[must_use]
     pub fn with_emergency_brake(self, emergency_brake: bool) -> Self {
         Self { emergency_brake, ..self }
@@ -97,7 +100,7 @@ impl Guard {
         }
         answer.contact = first_contact(&answer.trajectory, world, movers, horizon);
         if self.emergency_brake {
-            stop_in_time(situation, answer);
+            self.stop_in_time(situation, answer);
         }
         result
     }
@@ -132,5 +135,26 @@ impl Guard {
             Outcome::Arrives => Safety::Ok,
         };
         Ok(())
+    }
+
+    /// Has the robot brake where it could not stop in time any more after following `answer` for one period, unless
+    /// braking meets something sooner than going on does. See [`Foresight`] for what is avoided, and why teams that
+    /// do so never collide.
+    pub fn stop_in_time(&mut self, situation: &Situation<'_>, answer: &mut Answer) {
+        if matches!(answer.safety, Safety::Brake | Safety::Escape) {
+            return;
+        }
+        self.foresight.begin(situation);
+        if self.foresight.can_stop(situation, &answer.trajectory) {
+            return;
+        }
+        let Situation { world, movers, state, limits, horizon, .. } = *situation;
+        brake(state, limits, &mut self.stop);
+        let time = |contact: Option<Contact>| contact.map_or(f64::INFINITY, |c| c.time);
+        let contact = first_contact(&self.stop, world, movers, horizon);
+        if time(contact) >= time(answer.contact) || self.foresight.can_stop(situation, &self.stop) {
+            answer.trajectory.copy_from(&self.stop);
+            (answer.contact, answer.safety) = (contact, Safety::Brake);
+        }
     }
 }

@@ -57,7 +57,7 @@ pub fn circle(n: usize, seed: u64) -> Vec<(State, Point)> {
     (0..n)
         .map(|i| {
             let angle = std::f64::consts::TAU * i as f64 / n as f64;
-            let p = Vector::new(libm::cos(angle), libm::sin(angle)) * radius;
+            let p = Vector::new(angle.cos(), angle.sin()) * radius;
             let jitter = Vector::new(uniform() - 0.5, uniform() - 0.5) * 0.2;
             (State::at_rest(Point::from(p + jitter)), Point::from(-p))
         })
