@@ -13,14 +13,18 @@ use run_out::run_out;
 
 use super::contact::enters_world;
 use super::{Limits, Piece, State, Trajectory};
+use crate::geometry::cross;
 use crate::{Point, Vector, World};
 
 /// Shares of its squared speed to which a robot may brake before its first turn: 1, ¾, ½, ¼ and 0 of its speed.
 const SHARES: [f64; 5] = [1.0, 0.5625, 0.25, 0.0625, 0.0];
-/// Where a moving robot may join the path: in its first corner, and in the first ones at these braking distances.
+/// Where a moving robot may join the path: where it starts, in the next corner, in the first ones at these braking distances, and, seen
+/// from where it could stand, in that where a straight line touches a turning path.
 const AHEAD: [f64; 4] = [0.25, 0.5, 1.0, 2.0];
-/// Combinations of the two.
-const WAYS_IN: usize = SHARES.len() * (1 + AHEAD.len());
+/// Corners to join in.
+const JOINTS: usize = 3 + AHEAD.len();
+/// Combinations with shares.
+const WAYS_IN: usize = SHARES.len() * JOINTS;
 /// Rounds of slowing down in corners that are not free, to a quarter of the squared speed each, before the last ones.
 const SLOWER: usize = 5;
 /// Rounds of stopping in such corners. Then all are stopped in.
@@ -121,7 +125,11 @@ impl Follower {
         let time = |w: &Option<WayIn>| w.map_or(f64::INFINITY, |w| w.time);
         let mut ways = [None; WAYS_IN];
         let mut count = 0;
-        for next in self.ahead(braking) {
+        let joints = self.joints(from + along * braking, braking);
+        for (k, &next) in joints.iter().enumerate() {
+            if joints[..k].contains(&next) {
+                continue;
+            }
             for share in SHARES {
                 ways[count] = self.try_way_in(from, along, (square, share), next, limits);
                 count += usize::from(ways[count].is_some());
@@ -138,20 +146,27 @@ impl Follower {
         })
     }
 
-    /// The corners where the path may be joined.
-    fn ahead(&self, braking: f64) -> impl Iterator<Item = usize> + use<> {
+    /// The corners where the path may be joined; `stand` is where the robot would stand after braking.
+    fn joints(&self, stand: Point, braking: f64) -> [usize; JOINTS] {
         let corners = self.profile.corners();
-        let mut at = [1; 1 + AHEAD.len()];
+        let mut joints = [1; JOINTS];
+        joints[0] = 0;
         let (mut i, mut way) = (1, corners[0].length);
-        for (k, share) in AHEAD.iter().enumerate() {
+        for (joint, share) in joints.iter_mut().skip(2).zip(AHEAD) {
             while i + 1 < corners.len() && way < share * braking {
                 way += corners[i].length;
                 i += 1;
             }
-            at[k + 1] = i;
+            *joint = i;
         }
-        let distinct = move |k: usize| k == 0 || at[k] > at[k - 1];
-        (0..at.len()).filter(move |k| distinct(*k)).map(move |k| at[k])
+        let touches = |i: &usize| {
+            let (before, here) = (&corners[i - 1], &corners[*i]);
+            let line = here.at - stand;
+            // Both sides on one side of the line, and the path goes on along it.
+            cross(line, before.ahead) * cross(line, here.ahead) <= 0.0 && line.dot(&here.ahead) > 0.0
+        };
+        joints[JOINTS - 1] = (1..corners.len() - 1).find(touches).unwrap_or(1);
+        joints
     }
 
     fn try_way_in(

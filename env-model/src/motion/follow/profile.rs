@@ -188,6 +188,8 @@ impl Profile {
             let before = self.corners[i - 1].length * if i == 1 { 2.0 } else { 1.0 };
             self.corners[i].back = self.most(i, turn, limits).min(limits.acceleration * before / turn);
         }
+        // Nothing is known of the first corner, which only a robot that comes back to it passes.
+        self.corners[0].square = f64::NAN;
         if last > 0 {
             self.corners[1].square = self.corners[1].back;
         }
