@@ -389,7 +389,7 @@ fn the_folder_of_an_external_planner_is_said_but_no_part_of_identity() {
     };
     let folder = |c: &Comparison| match &c.planners[0].maker {
         Maker::External(external) => external.folder.clone(),
-        Maker::Catalogue(_) => unreachable!("it is external"),
+        _ => unreachable!("it is external"),
     };
     let [usual, own, far] = ["", "folder = \"own\"", "folder = \"/far\""].map(|keys| read(keys).unwrap());
     let here = std::env::current_dir().unwrap();
