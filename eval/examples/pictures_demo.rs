@@ -6,7 +6,7 @@ use std::path::Path;
 use env_model::scene::Field;
 use env_model::{Aabb, CellGrid, Columns, Obstacle, Point, Scene, Vector, World, path_length};
 use eval::report::{Language, html};
-use eval::results::{Manifest, Optimum, PlannerInfo, Results, RunRecord, RunStatus, SceneResult, SceneSet};
+use eval::results::{Manifest, Optimum, PlannerInfo, Results, RunRecord, RunStatus, SceneResult, SceneSet, Subject};
 use eval::snapshot::{Ruler, Snapshot, state};
 use planner_api::seed::splitmix64;
 use planner_api::{Candidates, CellState, CellsView, ForcesView, Frame, PopulationView, SwarmView, TreeView, View};
@@ -78,6 +78,8 @@ impl Demo<'_> {
             path: path.to_vec(),
             progress: Vec::new(),
             overhead_us: None,
+            moving: None,
+            tuning: None,
         });
         let Some(view) = view else { return };
         let frame = Frame { stage: "demo", iteration: 100, evaluations: 2000, best_cost: 1.0, view };
@@ -112,14 +114,18 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         name: "pictures".into(),
         seed: 1,
         repeats: 1,
+        subject: Subject::Paths,
+        protocol: String::new(),
         planners: Vec::new(),
         scenes: vec![SceneResult {
             scene: scene.clone(),
             optimum: Optimum { length: None, path: Vec::new(), reason: Some("made up".into()) },
             set: SceneSet::Test,
+            simulation: None,
         }],
         runs: Vec::new(),
         snapshots: Vec::new(),
+        traces: Vec::new(),
         manifest: Manifest::default(),
     };
     let mut demo = Demo { scene: &scene, world: World::new(&scene)?, ruler: Ruler::new(&scene), results };

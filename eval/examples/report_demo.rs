@@ -10,7 +10,9 @@ use env_model::scene::Field;
 use env_model::{Obstacle, Point, Scene, Shape, World, path_length};
 use eval::report::svg::{PathLayer, scene_svg};
 use eval::report::{Language, html};
-use eval::results::{Manifest, Optimum, PlannerInfo, Progress, Results, RunRecord, RunStatus, SceneResult, SceneSet};
+use eval::results::{
+    Manifest, Optimum, PlannerInfo, Progress, Results, RunRecord, RunStatus, SceneResult, SceneSet, Subject,
+};
 use planner_api::seed::splitmix64;
 
 /// Uniform numbers in [0, 1); quality hardly matters here.
@@ -139,6 +141,8 @@ fn record(scene: &Scene, world: &World, m: &Manner, repeat: u32, random: &mut Ra
         path,
         progress,
         overhead_us: None,
+        moving: None,
+        tuning: None,
     }
 }
 
@@ -176,7 +180,7 @@ fn campaign(name: &str, scenes: Vec<Scene>, known: bool, repeats: u32) -> Result
         for run in &mut runs[first..] {
             run.gap = optimum.length.zip(run.length).filter(|_| run.valid).map(|(o, l)| l / o - 1.0);
         }
-        results.push(SceneResult { scene, optimum, set: SceneSet::Test });
+        results.push(SceneResult { scene, optimum, set: SceneSet::Test, simulation: None });
     }
     let planner = |m: &Manner| {
         let kind = m.label.split("-no").next().unwrap_or("pso");
@@ -187,10 +191,13 @@ fn campaign(name: &str, scenes: Vec<Scene>, known: bool, repeats: u32) -> Result
         name: name.to_owned(),
         seed: 1,
         repeats,
+        subject: Subject::Paths,
+        protocol: String::new(),
         planners: MANNERS.iter().map(planner).collect(),
         scenes: results,
         runs,
         snapshots: Vec::new(),
+        traces: Vec::new(),
         manifest: Manifest {
             version: "0.1.0".into(),
             profile: "release".into(),

@@ -7,7 +7,7 @@ use env_model::{Scene, SceneError, World};
 use planner_api::{PlanError, Problem};
 
 use crate::config::{BudgetSpec, Comparison, SceneEntry};
-use crate::results::{Optimum, PlannerInfo, Results, SceneResult, SceneSet};
+use crate::results::{Optimum, PlannerInfo, Results, SceneResult, SceneSet, Subject};
 use crate::seeds::fnv1a_128;
 use crate::store::Stored;
 use crate::{machine, optimum};
@@ -41,7 +41,7 @@ impl Arena {
 
     /// The scene and its exact optimum, or why that is not known.
     pub fn result(&self) -> SceneResult {
-        SceneResult { scene: self.scene.clone(), optimum: self.optimum(), set: self.set }
+        SceneResult { scene: self.scene.clone(), optimum: self.optimum(), set: self.set, simulation: None }
     }
 
     fn optimum(&self) -> Optimum {
@@ -105,7 +105,7 @@ impl Campaign {
     /// What a store keeps of it before the first run; `results` are [`Campaign::empty_results`].
     pub fn stored(&self, results: &Results) -> Stored {
         Stored {
-            results: Results { runs: Vec::new(), snapshots: Vec::new(), ..results.clone() },
+            results: Results { runs: Vec::new(), snapshots: Vec::new(), traces: Vec::new(), ..results.clone() },
             comparison: self.comparison.to_toml(),
             scene_files: self.comparison.scene_files(),
             compile_us: self.arenas.iter().map(|arena| arena.compile_us).collect(),
@@ -135,6 +135,8 @@ impl Campaign {
             name: name.clone(),
             seed: *seed,
             repeats: *repeats,
+            subject: Subject::Paths,
+            protocol: String::new(),
             planners: planners
                 .iter()
                 .map(|p| {
@@ -157,6 +159,7 @@ impl Campaign {
             scenes: self.arenas.iter().map(Arena::result).collect(),
             runs: Vec::new(),
             snapshots: Vec::new(),
+            traces: Vec::new(),
             manifest,
         }
     }

@@ -42,7 +42,7 @@ pub fn merge(mut parts: Vec<Part>) -> Result<Merged, Error> {
     });
     let manifests: Vec<Manifest> = parts.iter().flat_map(|part| leaves(&part.stored.results.manifest)).collect();
     let first = &parts[0].stored;
-    let mut results = Results { runs: Vec::new(), snapshots: Vec::new(), ..first.results.clone() };
+    let mut results = Results { runs: Vec::new(), snapshots: Vec::new(), traces: Vec::new(), ..first.results.clone() };
     results.manifest = joined(manifests);
     results.runs = parts.iter().flat_map(|part| part.stored.results.runs.iter().cloned()).collect();
     results.runs.sort_by_key(key);

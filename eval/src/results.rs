@@ -1,11 +1,15 @@
 //! What a campaign leaves: the data model that store, exports and report share.
 
+mod moving;
+
 use env_model::{Point, Scene};
 use serde::{Deserialize, Serialize};
 
 use crate::config::BudgetSpec;
 use crate::snapshot::Snapshot;
 use crate::work::Shard;
+
+pub use moving::{GenerationRecord, Moving, MovingTrace, Subject, TraceOf, TuningRun};
 
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -151,6 +155,10 @@ pub struct RunRecord {
     /// What reaching the planner in its process cost beside `time_us`, µs; `None` where it ran in the bench's own
     /// process, or where the whole round trip counts as its time.
     pub overhead_us: Option<f64>,
+    /// What a simulation came to; `None` of a path.
+    pub moving: Option<Moving>,
+    /// What a tuning came to; `None` of anything else.
+    pub tuning: Option<TuningRun>,
 }
 
 impl RunRecord {
@@ -178,6 +186,8 @@ impl RunRecord {
             path: Vec::new(),
             progress: Vec::new(),
             overhead_us: None,
+            moving: None,
+            tuning: None,
         }
     }
 
@@ -207,6 +217,8 @@ pub struct SceneResult {
     pub optimum: Optimum,
     /// What it is for.
     pub set: SceneSet,
+    /// What moves in it, where something does: `scene` then only stands for its field.
+    pub simulation: Option<strategy::Settings>,
 }
 
 /// A planner of the campaign.
@@ -312,6 +324,10 @@ pub struct Results {
     pub seed: u64,
     /// Repeats per planner and scene.
     pub repeats: u32,
+    /// What the runs are.
+    pub subject: Subject,
+    /// The keys of the table `[behaviour]` in force, as TOML; empty for other subjects.
+    pub protocol: String,
     /// The planners in the comparison file's order.
     pub planners: Vec<PlannerInfo>,
     /// The scenes in the comparison file's order.
@@ -320,6 +336,8 @@ pub struct Results {
     pub runs: Vec<RunRecord>,
     /// What planners looked like at the end of some runs, in the order of scenes and planners.
     pub snapshots: Vec<Snapshot>,
+    /// Simulations to look at, in the order of scenes and planners.
+    pub traces: Vec<MovingTrace>,
     /// Machine, versions, times.
     pub manifest: Manifest,
 }

@@ -1,6 +1,8 @@
 //! Campaigns by hand.
 
-use crate::results::{Manifest, Optimum, PlannerInfo, Progress, Results, RunRecord, RunStatus, SceneResult, SceneSet};
+use crate::results::{
+    Manifest, Optimum, PlannerInfo, Progress, Results, RunRecord, RunStatus, SceneResult, SceneSet, Subject,
+};
 use crate::testing;
 
 /// A run of 100 evaluations and 1 ms with a valid path of `length`, or none when that is infinite.
@@ -32,15 +34,19 @@ pub fn results(planners: &[&str], scenes: &[(&str, Option<f64>)], runs: Vec<RunR
         scene: testing::scene(name),
         optimum: Optimum { length: *length, path: Vec::new(), reason: None },
         set: SceneSet::Test,
+        simulation: None,
     };
     Results {
         name: "by hand".into(),
         seed: 0,
         repeats: runs.iter().map(|r| r.repeat + 1).max().unwrap_or(0),
+        subject: Subject::Paths,
+        protocol: String::new(),
         planners: planners.iter().map(planner).collect(),
         scenes: scenes.iter().map(scene).collect(),
         runs,
         snapshots: Vec::new(),
+        traces: Vec::new(),
         manifest: Manifest::default(),
     }
 }

@@ -4,7 +4,7 @@ use env_model::{Obstacle, Point, Scene, Shape};
 
 use super::svg::{PathLayer, scene_svg};
 use super::*;
-use crate::results::{Optimum, PlannerInfo, Progress, RunRecord, RunStatus, SceneSet};
+use crate::results::{Optimum, PlannerInfo, Progress, RunRecord, RunStatus, SceneSet, Subject};
 use crate::snapshot::{Heat, Mesh, Ruler, Snapshot, State, Tree};
 
 /// A run with a path of that length, or without path.
@@ -33,6 +33,8 @@ pub fn run(scene: &str, planner: &str, repeat: u32, length: Option<f64>) -> RunR
         path,
         progress: Vec::new(),
         overhead_us: None,
+        moving: None,
+        tuning: None,
     }
 }
 
@@ -77,13 +79,16 @@ pub fn results(planners: &[&str], scenes: &[&str], repeats: u32) -> Results {
         name: "test".into(),
         seed: 1,
         repeats,
+        subject: Subject::Paths,
+        protocol: String::new(),
         planners: planners.iter().map(planner).collect(),
         scenes: scenes
             .iter()
-            .map(|s| SceneResult { scene: scene(s), optimum: optimum.clone(), set: SceneSet::Test })
+            .map(|s| SceneResult { scene: scene(s), optimum: optimum.clone(), set: SceneSet::Test, simulation: None })
             .collect(),
         runs,
         snapshots: Vec::new(),
+        traces: Vec::new(),
         manifest: Manifest { version: "0.1.0".into(), jobs: 1, cores: 2, ..Manifest::default() },
     }
 }

@@ -2,8 +2,8 @@
 //!
 //! An `SQLite` database in WAL mode, one transaction a run, so an interrupted campaign keeps
 //! every run that ended. Paths and progress curves are JSON text
-//! (`[[x, y], …]` and `[[evaluations, time_us, cost], …]`), and so are terms (`[[name, value], …]`)
-//! and snapshots ([`Snapshot`]): readable from any language.
+//! (`[[x, y], …]` and `[[evaluations, time_us, cost], …]`), and so are terms (`[[name, value], …]`),
+//! snapshots ([`Snapshot`]), simulations, tunings and traces: readable from any language.
 
 mod read;
 mod write;
@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 use crate::campaign::Campaign;
 use crate::config::BudgetSpec;
 use crate::error::Error;
-use crate::results::{Manifest, Results, RunRecord, RunStatus};
+use crate::results::{Manifest, MovingTrace, Results, RunRecord, RunStatus};
 use crate::shell::quoted;
 use crate::snapshot::Snapshot;
 use read::Read;
@@ -25,10 +25,13 @@ use read::Read;
 /// The file's name in a campaign's folder.
 pub const FILE: &str = "runs.db";
 /// Version of the tables below.
-const SCHEMA: i64 = 3;
+const SCHEMA: i64 = 4;
 /// The first version, which this program still reads: without `snapshot` and a run's `cost` and `terms`. The second
 /// has them, and lacks a planner's `variant`, a scene's `role` and a run's `overhead_us`.
 const FIRST: i64 = 1;
+/// The first version with variants, roles and overheads. It knows paths alone: no `subject`, `protocol`, `simulation`,
+/// `moving`, `tuning`, and no table `trace`.
+const VARIANTS: i64 = 3;
 
 const TABLES: &str = "
 CREATE TABLE campaign (
@@ -37,7 +40,9 @@ CREATE TABLE campaign (
     seed INTEGER NOT NULL,
     repeats INTEGER NOT NULL,
     comparison TEXT NOT NULL,          -- resolved, TOML
-    manifest TEXT NOT NULL             -- JSON; finished = '' while the campaign lasts
+    manifest TEXT NOT NULL,            -- JSON; finished = '' while the campaign lasts
+    subject TEXT NOT NULL,             -- paths, simulation or behaviour
+    protocol TEXT NOT NULL             -- of behaviour, TOML
 );
 CREATE TABLE planner (
     position INTEGER PRIMARY KEY,
@@ -55,7 +60,8 @@ CREATE TABLE scene (
     optimum_length REAL,
     optimum_path TEXT NOT NULL,        -- JSON
     optimum_reason TEXT,
-    role TEXT NOT NULL                 -- test or tuning
+    role TEXT NOT NULL,                -- test or tuning
+    simulation TEXT                    -- what moves, JSON
 );
 CREATE TABLE run (
     scene TEXT NOT NULL,
@@ -79,11 +85,17 @@ CREATE TABLE run (
     cost REAL,
     terms TEXT NOT NULL,               -- JSON
     overhead_us REAL,                  -- beside time_us, of a run in a process of its own
+    moving TEXT,                       -- of a simulation, JSON
+    tuning TEXT,                       -- of a behaviour, JSON
     PRIMARY KEY (scene, planner, repeat)
 ) WITHOUT ROWID;
 CREATE TABLE snapshot (
     position INTEGER PRIMARY KEY,
     snapshot TEXT NOT NULL             -- JSON
+);
+CREATE TABLE trace (
+    position INTEGER PRIMARY KEY,
+    trace TEXT NOT NULL                -- JSON
 );
 ";
 
@@ -214,6 +226,11 @@ impl Store {
         write::replace_snapshots(&mut self.db, snapshots).map_err(self.fail())
     }
 
+    /// Keeps the simulations to look at, in place of those that are there.
+    pub fn add_traces(&mut self, traces: &[MovingTrace]) -> Result<(), Error> {
+        write::replace_traces(&mut self.db, traces).map_err(self.fail())
+    }
+
     /// Notes that the campaign has ended, or goes on: what `manifest` says.
     pub fn finish(&self, manifest: &Manifest) -> Result<(), Error> {
         write::set_manifest(&self.db, manifest).map_err(self.fail())
@@ -232,11 +249,12 @@ impl Store {
         let mut stored = self.head()?;
         stored.results.runs = self.sense(read::runs(&self.db, self.schema))?;
         stored.results.snapshots = self.sense(read::snapshots(&self.db))?;
+        stored.results.traces = self.sense(read::traces(&self.db, self.schema))?;
         drop(moment);
         Ok(stored)
     }
 
-    /// Reads everything back but runs and snapshots.
+    /// Reads everything back but runs, snapshots and traces.
     pub fn head(&self) -> Result<Stored, Error> {
         self.sense(read::head(&self.db, self.schema))
     }

@@ -4,10 +4,13 @@ use std::collections::BTreeSet;
 
 use env_model::{Point, Scene};
 use rusqlite::{Connection, Row};
+use serde::de::DeserializeOwned;
 
-use super::{Count, FIRST, SCHEMA, Stored, Variant};
+use super::{Count, FIRST, SCHEMA, Stored, VARIANTS, Variant};
 use crate::config::BudgetSpec;
-use crate::results::{Optimum, PlannerInfo, Progress, Results, RunRecord, RunStatus, SceneResult, SceneSet};
+use crate::results::{
+    MovingTrace, Optimum, PlannerInfo, Progress, Results, RunRecord, RunStatus, SceneResult, SceneSet, Subject,
+};
 use crate::snapshot::Snapshot;
 
 /// The outer error is the database's, the inner one says which content makes no sense.
@@ -22,15 +25,17 @@ fn path(json: &str) -> Result<Vec<Point>, String> {
     Ok(points.into_iter().map(Point::from).collect())
 }
 
-/// Everything but runs and snapshots.
+/// Everything but runs, snapshots and traces.
 pub(super) fn head(db: &Connection, schema: i64) -> Read<Stored> {
-    type Head = (String, i64, u32, String, String);
+    type Head = (String, i64, u32, String, String, String, String);
     // What older versions lack.
-    let (variant, role) = if schema < SCHEMA { ("NULL", "'test'") } else { ("variant", "role") };
-    let (name, seed, repeats, comparison, manifest): Head =
-        db.query_row("SELECT name, seed, repeats, comparison, manifest FROM campaign", [], |row| {
-            Ok((row.get(0)?, row.get(1)?, row.get(2)?, row.get(3)?, row.get(4)?))
-        })?;
+    let (variant, role) = if schema < VARIANTS { ("NULL", "'test'") } else { ("variant", "role") };
+    let (subject, simulation) =
+        if schema < SCHEMA { ("'paths', ''", "NULL") } else { ("subject, protocol", "simulation") };
+    let columns = format!("SELECT name, seed, repeats, comparison, manifest, {subject} FROM campaign");
+    let (name, seed, repeats, comparison, manifest, subject, protocol): Head = db.query_row(&columns, [], |row| {
+        Ok((row.get(0)?, row.get(1)?, row.get(2)?, row.get(3)?, row.get(4)?, row.get(5)?, row.get(6)?))
+    })?;
     let mut statement =
         db.prepare(&format!("SELECT label, kind, settings, {variant} FROM planner ORDER BY position"))?;
     let planners = collect(statement.query_map([], |row| {
@@ -50,27 +55,29 @@ pub(super) fn head(db: &Connection, schema: i64) -> Read<Stored> {
         }))
     })?)?;
     let mut statement = db.prepare(&format!(
-        "SELECT file, toml, optimum_length, optimum_path, optimum_reason, {role}, compile_us FROM scene ORDER BY position"
+        "SELECT file, toml, optimum_length, optimum_path, optimum_reason, {role}, compile_us, {simulation}
+         FROM scene ORDER BY position"
     ))?;
     let scenes = collect(statement.query_map([], |row| {
         let (file, toml, shortest): (String, String, String) = (row.get(0)?, row.get(1)?, row.get(3)?);
         let (length, reason, role): (_, _, String) = (row.get(2)?, row.get(4)?, row.get(5)?);
-        let compile_us: f64 = row.get(6)?;
+        let (compile_us, simulation): (f64, Option<String>) = (row.get(6)?, row.get(7)?);
         Ok(Scene::from_toml(&file, &toml).map_err(|e| e.to_string()).and_then(|scene| {
             let set = SceneSet::from_name(&role).ok_or_else(|| format!("no set of scenes {role:?}"))?;
-            Ok((
-                (file, compile_us),
-                SceneResult { scene, optimum: Optimum { length, path: path(&shortest)?, reason }, set },
-            ))
+            let optimum = Optimum { length, path: path(&shortest)?, reason };
+            let simulation = told(simulation).map_err(|e| format!("what moves: {e}"))?;
+            Ok(((file, compile_us), SceneResult { scene, optimum, set, simulation }))
         }))
     })?)?;
     Ok((|| {
         let (places, scenes): (Vec<_>, _) = scenes?.into_iter().unzip();
         let (scene_files, compile_us) = places.into_iter().unzip();
         let manifest = serde_json::from_str(&manifest).map_err(|e| format!("the manifest: {e}"))?;
-        let (runs, snapshots) = (Vec::new(), Vec::new());
+        let subject = Subject::from_name(&subject).ok_or_else(|| format!("no subject {subject:?}"))?;
         let (planners, seed) = (planners?, seed as u64);
-        let results = Results { name, seed, repeats, planners, scenes, runs, snapshots, manifest };
+        let (runs, snapshots, traces) = (Vec::new(), Vec::new(), Vec::new());
+        let results =
+            Results { name, seed, repeats, subject, protocol, planners, scenes, runs, snapshots, traces, manifest };
         Ok(Stored { results, comparison, scene_files, compile_us })
     })())
 }
@@ -78,15 +85,17 @@ pub(super) fn head(db: &Connection, schema: i64) -> Read<Stored> {
 /// The runs, sorted by scene, planner, repeat.
 pub(super) fn runs(db: &Connection, schema: i64) -> Read<Vec<RunRecord>> {
     let added = if schema == FIRST { "NULL, '[]'" } else { "cost, terms" };
-    let overhead = if schema < SCHEMA { "NULL" } else { "overhead_us" };
+    let overhead = if schema < VARIANTS { "NULL" } else { "overhead_us" };
+    let moving = if schema < SCHEMA { "NULL, NULL" } else { "moving, tuning" };
     let mut statement = db.prepare(&format!(
         "SELECT scene, planner, repeat, seed, status, valid, length, gap, clearance_min, turning, iterations,
-         evaluations, collision_checks, time_us, cpu_us, error, path, progress, {added}, {overhead}
+         evaluations, collision_checks, time_us, cpu_us, error, path, progress, {added}, {overhead}, {moving}
          FROM run ORDER BY scene, planner, repeat",
     ))?;
     collect(statement.query_map([], |row| {
         let (status, points, curve): (String, String, String) = (row.get(4)?, row.get(16)?, row.get(17)?);
         let terms: String = row.get(19)?;
+        let [moving, tuning] = [row.get(21)?, row.get::<_, Option<String>>(22)?];
         let count = |i: usize| row.get::<_, i64>(i).map(|n| n as u64);
         let (scene, planner): (String, String) = (row.get(0)?, row.get(1)?);
         let mut run = RunRecord {
@@ -105,16 +114,34 @@ pub(super) fn runs(db: &Connection, schema: i64) -> Read<Vec<RunRecord>> {
             overhead_us: row.get(20)?,
             ..RunRecord::empty(&scene, &planner, row.get(2)?, count(3)?)
         };
-        let mut parse = || {
+        let parse = || {
             run.status = RunStatus::from_name(&status).ok_or_else(|| format!("no status {status:?}"))?;
             run.path = path(&points)?;
             let curve: Vec<(u64, f64, f64)> = serde_json::from_str(&curve).map_err(|e| format!("a curve: {e}"))?;
             let point = |(evaluations, time_us, cost)| Progress { evaluations, time_us, cost };
             run.progress = curve.into_iter().map(point).collect();
             run.terms = serde_json::from_str(&terms).map_err(|e| format!("terms: {e}"))?;
+            run.moving = told(moving).map_err(|e| format!("a simulation: {e}"))?;
+            run.tuning = told(tuning).map_err(|e| format!("a tuning: {e}"))?;
             Ok(())
         };
         Ok(parse().map(|()| run))
+    })?)
+}
+
+fn told<T: DeserializeOwned>(text: Option<String>) -> serde_json::Result<Option<T>> {
+    text.map(|text| serde_json::from_str(&text)).transpose()
+}
+
+/// Simulations to look at.
+pub(super) fn traces(db: &Connection, schema: i64) -> Read<Vec<MovingTrace>> {
+    if schema < SCHEMA {
+        return Ok(Ok(Vec::new()));
+    }
+    let mut statement = db.prepare("SELECT trace FROM trace ORDER BY position")?;
+    collect(statement.query_map([], |row| {
+        let text: String = row.get(0)?;
+        Ok(serde_json::from_str(&text).map_err(|e| format!("a trace: {e}")))
     })?)
 }
 

@@ -5,7 +5,7 @@ use rusqlite::{Connection, params};
 use serde::Serialize;
 
 use super::{SCHEMA, Stored, TABLES, Variant};
-use crate::results::{Manifest, Optimum, RunRecord};
+use crate::results::{Manifest, MovingTrace, Optimum, RunRecord};
 use crate::snapshot::Snapshot;
 
 fn json(value: &impl Serialize) -> String {
@@ -22,8 +22,17 @@ pub(super) fn fill(db: &mut Connection, stored: &Stored) -> rusqlite::Result<()>
     let tx = db.transaction()?;
     tx.execute_batch(TABLES)?;
     tx.execute(
-        "INSERT INTO campaign VALUES (?1, ?2, ?3, ?4, ?5, ?6)",
-        params![SCHEMA, results.name, results.seed as i64, results.repeats, comparison, json(&results.manifest)],
+        "INSERT INTO campaign VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)",
+        params![
+            SCHEMA,
+            results.name,
+            results.seed as i64,
+            results.repeats,
+            comparison,
+            json(&results.manifest),
+            results.subject.name(),
+            results.protocol
+        ],
     )?;
     for (i, planner) in results.planners.iter().enumerate() {
         tx.execute(
@@ -40,7 +49,7 @@ pub(super) fn fill(db: &mut Connection, stored: &Stored) -> rusqlite::Result<()>
     for (i, ((scene, compile_us), file)) in results.scenes.iter().zip(compile_us).zip(scene_files).enumerate() {
         let Optimum { length, path, reason } = &scene.optimum;
         tx.execute(
-            "INSERT INTO scene VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9)",
+            "INSERT INTO scene VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10)",
             params![
                 i as i64,
                 scene.scene.name,
@@ -50,7 +59,8 @@ pub(super) fn fill(db: &mut Connection, stored: &Stored) -> rusqlite::Result<()>
                 length,
                 points(path),
                 reason,
-                scene.set.name()
+                scene.set.name(),
+                scene.simulation.as_ref().map(json)
             ],
         )?;
     }
@@ -58,6 +68,7 @@ pub(super) fn fill(db: &mut Connection, stored: &Stored) -> rusqlite::Result<()>
         insert(&tx, run)?;
     }
     put_snapshots(&tx, &results.snapshots)?;
+    put_traces(&tx, &results.traces)?;
     tx.commit()
 }
 
@@ -66,7 +77,7 @@ pub(super) fn insert(db: &Connection, run: &RunRecord) -> rusqlite::Result<()> {
     let progress: Vec<(u64, f64, f64)> = run.progress.iter().map(|p| (p.evaluations, p.time_us, p.cost)).collect();
     let mut statement = db.prepare_cached(
         "INSERT INTO run VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17, ?18,
-         ?19, ?20, ?21)",
+         ?19, ?20, ?21, ?22, ?23)",
     )?;
     // Outside of `BEGIN` every statement is a transaction of its own.
     statement.execute(params![
@@ -91,6 +102,8 @@ pub(super) fn insert(db: &Connection, run: &RunRecord) -> rusqlite::Result<()> {
         run.cost,
         json(&run.terms),
         run.overhead_us,
+        run.moving.as_ref().map(json),
+        run.tuning.as_ref().map(json),
     ])?;
     Ok(())
 }
@@ -107,6 +120,22 @@ fn put_snapshots(db: &Connection, snapshots: &[Snapshot]) -> rusqlite::Result<()
     let mut statement = db.prepare("INSERT INTO snapshot (snapshot) VALUES (?1)")?;
     for snapshot in snapshots {
         statement.execute(params![json(snapshot)])?;
+    }
+    Ok(())
+}
+
+/// Puts `traces` in the place of those that are there.
+pub(super) fn replace_traces(db: &mut Connection, traces: &[MovingTrace]) -> rusqlite::Result<()> {
+    let tx = db.transaction()?;
+    tx.execute("DELETE FROM trace", [])?;
+    put_traces(&tx, traces)?;
+    tx.commit()
+}
+
+fn put_traces(db: &Connection, traces: &[MovingTrace]) -> rusqlite::Result<()> {
+    let mut statement = db.prepare("INSERT INTO trace (trace) VALUES (?1)")?;
+    for trace in traces {
+        statement.execute(params![json(trace)])?;
     }
     Ok(())
 }
