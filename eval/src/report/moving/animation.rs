@@ -56,7 +56,12 @@ pub fn figure(clip: &Clip<'_>, stage: &Stage, t: &Strings) -> Option<Value> {
     let mut goals = String::new();
     for (k, robot) in clip.robots.iter().enumerate() {
         let (x, y) = stage.at(robot.goal);
-        let _ = write!(goals, r#"<path class="line target {}" d="M{:.1} {y:.1}h12m-6-6v12"/>"#, palette::colour(k), x - 6.0);
+        let _ = write!(
+            goals,
+            r#"<path class="line target {}" d="M{:.1} {y:.1}h12m-6-6v12"/>"#,
+            palette::colour(k),
+            x - 6.0
+        );
     }
     let bottom = TOP + stage.camera.height();
     let mut labels = Labels::new([LEFT, TOP, LEFT + WIDTH, bottom]);
@@ -99,8 +104,7 @@ fn data(trace: &Trace, stage: &Stage) -> String {
 
 /// The way of one body: of an own robot (`number`) in its colour, of others thin and grey.
 fn way(trace: &Trace, stage: &Stage, body: usize, number: Option<usize>) -> String {
-    let places: Vec<Point> =
-        trace.frames.iter().filter_map(|f| f.get(body)).map(|p| Point::new(p[0], p[1])).collect();
+    let places: Vec<Point> = trace.frames.iter().filter_map(|f| f.get(body)).map(|p| Point::new(p[0], p[1])).collect();
     let Some(k) = number else {
         return format!(r#"<path class="trail other" d="{}"/>"#, polyline(&stage.camera, &places));
     };

@@ -5,7 +5,7 @@ use strategy::Trace;
 
 use super::super::data_table::{self, number, row, words};
 use super::super::language::Strings;
-use super::animation::{bodies, seconds};
+use super::animation::bodies;
 use crate::format;
 
 /// The table; `None` where nothing touched.
@@ -16,7 +16,9 @@ pub fn table(trace: &Trace, id: &str, t: &Strings) -> Option<Value> {
         .map(|e| {
             row(vec![
                 number(format!("{}\u{a0}s", format::significant(e.time_s, 4)), e.time_s),
-                words(t.fill("moving_who", &[("a", &name(trace, e.bodies[0], t)), ("b", &name(trace, e.bodies[1], t))])),
+                words(
+                    t.fill("moving_who", &[("a", &name(trace, e.bodies[0], t)), ("b", &name(trace, e.bodies[1], t))]),
+                ),
                 number(format!("{}\u{a0}m/s", format::significant(e.closing, 3)), e.closing),
                 words(t.get(if e.foul { "yes" } else { "no" })),
             ])

@@ -34,8 +34,10 @@ impl Labels {
         let corner = 0.7 * radius + 1.0;
         let fits = |&(left, top): &(f64, f64)| {
             let room = [left, top, left + w, top + h];
-            let inside =
-                left >= self.bounds[0] && top >= self.bounds[1] && room[2] <= self.bounds[2] && room[3] <= self.bounds[3];
+            let inside = left >= self.bounds[0]
+                && top >= self.bounds[1]
+                && room[2] <= self.bounds[2]
+                && room[3] <= self.bounds[3];
             inside && !self.taken.iter().any(|other| overlap(&room, other))
         };
         let places = [

@@ -22,12 +22,12 @@ pub const FOOT: f64 = BOTTOM;
 pub struct Stage {
     /// From metres to picture units.
     pub camera: Camera,
-    league: Option<League>,
+    league: League,
 }
 
 impl Stage {
     /// Sees all that moves in `clips`.
-    pub fn new<'a>(clips: impl Iterator<Item = (&'a Trace, &'a [RobotRecord])>, league: Option<League>) -> Self {
+    pub fn new<'a>(clips: impl Iterator<Item = (&'a Trace, &'a [RobotRecord])>, league: League) -> Self {
         let (mut min, mut max) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         let mut see = |p: &[f64; 2]| {
             for k in 0..2 {
@@ -69,9 +69,7 @@ impl Stage {
     pub fn backdrop(&self, id: &str) -> String {
         let h = self.camera.height();
         let mut out = format!(r#"<rect class="ground" x="{LEFT}" y="{TOP}" width="{WIDTH}" height="{h:.1}"/>"#);
-        if let Some(league) = self.league {
-            out += &clipped(id, &self.camera, &self.lines(league));
-        }
+        out += &clipped(id, &self.camera, &self.lines());
         let (y, metre) = (TOP + h + 15.0, self.length(1.0));
         let _ = write!(
             out,
@@ -85,9 +83,9 @@ impl Stage {
     }
 
     /// Touch and goal lines, halfway line, centre circle and defence areas.
-    fn lines(&self, league: League) -> String {
-        let [x, y] = league.half_size();
-        let [deep, wide] = league.defence_area();
+    fn lines(&self) -> String {
+        let [x, y] = self.league.half_size();
+        let [deep, wide] = self.league.defence_area();
         let rectangle = |a: [f64; 2], b: [f64; 2]| {
             let ((x0, y0), (x1, y1)) = (self.at(a), self.at(b));
             format!("M{x0:.1} {y0:.1}H{x1:.1}V{y1:.1}H{x0:.1}z")
