@@ -67,3 +67,6 @@ fn seconds(s: f64) -> String {
 fn millimetres(metres: f64) -> String {
     format!("{}\u{a0}mm", crate::format::significant((1000.0 * metres).round(), 6))
 }
+
+#[cfg(test)]
+mod tests;

@@ -30,3 +30,6 @@ fn middle(values: &[f64]) -> Option<[f64; 3]> {
 fn fitness(value: f64) -> String {
     crate::format::significant(value, 4)
 }
+
+#[cfg(test)]
+mod tests;
