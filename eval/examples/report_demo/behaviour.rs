@@ -26,8 +26,7 @@ fn tuning(gain: f64, random: &mut Random) -> TuningRun {
         let grown = gain.max(0.02) * (1.0 - libm::exp(-0.25 * f64::from(g)));
         GenerationRecord { max: 0.71 + grown + luck, mean: 0.48 + 2.2 * grown + luck + 0.01 * random.next() }
     };
-    let generations: Vec<GenerationRecord> =
-        if gain > 0.0 { (0..30).map(generation).collect() } else { Vec::new() };
+    let generations: Vec<GenerationRecord> = if gain > 0.0 { (0..30).map(generation).collect() } else { Vec::new() };
     let parameters = PARAMETERS.map(|(name, published, tuned)| {
         let value = if gain > 0.0 { tuned * (0.8 + 0.4 * random.next()) } else { published };
         (name.to_owned(), value)

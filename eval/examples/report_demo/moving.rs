@@ -53,7 +53,8 @@ fn place(start: [f64; 2], goal: [f64; 2], bow: f64, share: f64) -> [f64; 2] {
 fn events(trace: &Trace) -> Vec<Event> {
     let mut events = Vec::new();
     for a in 0..trace.bodies.len() {
-        for b in (0..a).filter(|b| trace.bodies[a].side == "own" || trace.bodies[*b].side == "own") {
+        let robots = |b: &usize| trace.bodies[a].side != "ball" && trace.bodies[*b].side == "own";
+        for b in (0..a).filter(robots) {
             let reach = trace.bodies[a].radius + trace.bodies[b].radius;
             let gap = |f: &Vec<[f64; 2]>| libm::hypot(f[a][0] - f[b][0], f[a][1] - f[b][1]);
             for (k, pair) in trace.frames.windows(2).enumerate() {
@@ -82,10 +83,16 @@ fn simulation(m: &Manner, settings: &Settings, random: &mut Random) -> (Moving, 
         let goal = start.map(|v| -v);
         ways.push((start, goal, m.bow + vary(m.spread), m.duration * (1.0 + vary(0.1))));
         let arrival_s = Some(ways[i].3);
-        robots.push(RobotRecord { start, goal, arrival_s, least_s: LEAST, travelled: 5.4 * (1.0 + m.bow), collisions: 0 });
+        robots.push(RobotRecord {
+            start,
+            goal,
+            arrival_s,
+            least_s: LEAST,
+            travelled: 5.4 * (1.0 + m.bow),
+            collisions: 0,
+        });
     }
-    let drift: Vec<[f64; 4]> =
-        (0..settings.opponents).map(|_| [vary(2.0), vary(2.0), vary(0.4), vary(0.4)]).collect();
+    let drift: Vec<[f64; 4]> = (0..settings.opponents).map(|_| [vary(2.0), vary(2.0), vary(0.4), vary(0.4)]).collect();
     let body = |side: &str, radius| TraceBody { side: side.to_owned(), radius };
     let mut bodies = vec![body("own", league::ROBOT_RADIUS); n];
     bodies.extend(vec![body("opponent", league::ROBOT_RADIUS); drift.len()]);
@@ -105,7 +112,11 @@ fn simulation(m: &Manner, settings: &Settings, random: &mut Random) -> (Moving, 
     };
     trace.events = events(&trace);
     for event in &trace.events {
-        event.bodies.iter().for_each(|b| if let Some(r) = robots.get_mut(*b) { r.collisions += 1 });
+        event.bodies.iter().for_each(|b| {
+            if let Some(r) = robots.get_mut(*b) {
+                r.collisions += 1
+            }
+        });
     }
     let fouls = trace.events.iter().filter(|e| e.foul).count() as u32;
     let collisions = trace.events.len() as u32;

@@ -1,6 +1,5 @@
 // Sets the pictures of moving scenes in motion: all of one scene in step, by one slider. Nothing moves by itself.
 document.querySelectorAll(".player").forEach((player) => {
-  const svgNames = "http://www.w3.org/2000/svg";
   const TAIL = 1500;
   const clips = [...player.parentElement.querySelectorAll("figure.clip")].map((figure) => {
     const { origin, scale, tracks } = JSON.parse(figure.querySelector("script.tracks").textContent);
@@ -18,7 +17,7 @@ document.querySelectorAll(".player").forEach((player) => {
       const own = disc.querySelector(".own");
       let tail = null;
       if (own) {
-        tail = document.createElementNS(svgNames, "path");
+        tail = document.createElementNS(svg.namespaceURI, "path");
         tail.setAttribute("class", `line tail ${[...own.classList].find((name) => /^c\d$/.test(name))}`);
         disc.before(tail);
       }

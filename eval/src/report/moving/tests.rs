@@ -21,7 +21,11 @@ fn trace(touch: bool) -> Trace {
         period_s: 0.01,
         bodies: vec![body("own"), body("own"), body("opponent"), body("ball")],
         frames: (0..=200).map(frame).collect(),
-        events: if touch { vec![event, Event { foul: false, bodies: [0, 2], time_s: 1.5, ..event }] } else { Vec::new() },
+        events: if touch {
+            vec![event, Event { foul: false, bodies: [0, 2], time_s: 1.5, ..event }]
+        } else {
+            Vec::new()
+        },
     }
 }
 
@@ -46,7 +50,8 @@ fn moving(clean: bool) -> Moving {
         calls: 400,
         ..Metrics::default()
     };
-    let compute = Compute { call_us: [1.0, 2.0, 3.0, 4.0], frame_us: [2.0, 4.0, 6.0, 20_000.0], misses: 1, total_us: 800.0 };
+    let compute =
+        Compute { call_us: [1.0, 2.0, 3.0, 4.0], frame_us: [2.0, 4.0, 6.0, 20_000.0], misses: 1, total_us: 800.0 };
     Moving { metrics, compute, robots: vec![robot(1.0), robot(-1.0)] }
 }
 
@@ -70,12 +75,21 @@ fn results(planners: &[&str], scenes: &[&str], repeats: u32) -> Results {
                 let kept = |k: &MovingTrace| k.scene == *name && k.planner == *planner && k.of == of;
                 if !traces.iter().any(kept) {
                     let (scene, planner) = ((*name).to_owned(), (*planner).to_owned());
-                    traces.push(MovingTrace { scene, planner, repeat, seed: 1, of, faithful: clean, trace: trace(!clean) });
+                    traces.push(MovingTrace {
+                        scene,
+                        planner,
+                        repeat,
+                        seed: 1,
+                        of,
+                        faithful: clean,
+                        trace: trace(!clean),
+                    });
                 }
             }
         }
     }
-    let optimum = Optimum { length: None, path: Vec::new(), reason: Subject::Simulation.no_optimum().map(str::to_owned) };
+    let optimum =
+        Optimum { length: None, path: Vec::new(), reason: Subject::Simulation.no_optimum().map(str::to_owned) };
     let scene = |name: &&str| SceneResult {
         scene: scene(name),
         optimum: optimum.clone(),
@@ -129,7 +143,10 @@ fn the_answer_says_who_loses_least_and_where_others_fail() {
     assert!(page.contains("1.25\u{a0}× the lower bound"));
     let quote = between(&page, "<li>b: ", "</li>");
     assert!(quote[0].starts_with("6 of 9 runs clean"), "{quote:?}");
-    assert!(quote[0].ends_with("first failure (one, repeat 2): 1 and 2 touch after 1\u{a0}s, closing at 2 m&#x2f;s"), "{quote:?}");
+    assert!(
+        quote[0].ends_with("first failure (one, repeat 2): 1 and 2 touch after 1\u{a0}s, closing at 2 m&#x2f;s"),
+        "{quote:?}"
+    );
     assert!(page.contains("<li>c: 0 of 9 runs clean"), "without a ratio");
 }
 

@@ -10,15 +10,20 @@ use crate::results::{
 /// Given parameters of fitness about 0.6, and tuned ones that are `better` by so much; 12 pairs.
 fn results(better: &[f64]) -> Results {
     let mut runs = Vec::new();
-    let planners: Vec<String> =
-        [0.0].iter().chain(better).enumerate().map(|(k, _)| if k == 0 { "given".to_owned() } else { format!("ga-{k}") }).collect();
+    let planners: Vec<String> = [0.0]
+        .iter()
+        .chain(better)
+        .enumerate()
+        .map(|(k, _)| if k == 0 { "given".to_owned() } else { format!("ga-{k}") })
+        .collect();
     for (k, (gain, planner)) in [0.0].iter().chain(better).zip(&planners).enumerate() {
         for repeat in 0..12 {
             let seed = f64::from(repeat);
             // A gain of 0 is as often a little better as a little worse.
             let noise = if k > 0 && *gain == 0.0 { (seed - 5.5) * 1e-3 } else { 0.0 };
             let held_out = 0.6 + 0.01 * seed + gain + noise;
-            let generation = |g: i32| GenerationRecord { max: 0.5 + 0.02 * f64::from(g), mean: 0.3 + 0.02 * f64::from(g) };
+            let generation =
+                |g: i32| GenerationRecord { max: 0.5 + 0.02 * f64::from(g), mean: 0.3 + 0.02 * f64::from(g) };
             let tuning = TuningRun {
                 generations: if k > 0 { (0..12).map(generation).collect() } else { Vec::new() },
                 parameters: vec![("goal_gain".to_owned(), 0.8 + gain * seed), ("noise_steps".to_owned(), 6.0)],
@@ -38,7 +43,8 @@ fn results(better: &[f64]) -> Results {
             });
         }
     }
-    let optimum = Optimum { length: None, path: Vec::new(), reason: Subject::Behaviour.no_optimum().map(str::to_owned) };
+    let optimum =
+        Optimum { length: None, path: Vec::new(), reason: Subject::Behaviour.no_optimum().map(str::to_owned) };
     Results {
         name: "test".into(),
         seed: 1,
