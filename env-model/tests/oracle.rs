@@ -3,106 +3,16 @@
 //! The oracle takes from parry only projections of points on segments, nearest points of two
 //! segments, and point-in-polygon; radii are subtracted here. It shares no code with `env-model`.
 
+mod common;
+
+use common::{Draw, core, inside, point_oracle, point_segment, pv, sides};
 use env_model::{Aabb, Inflated, Obstacle, Point, Polygon, Scene, Shape, Vector, World};
-use parry2d_f64::math::{Pose, Vector as ParryVector};
-use parry2d_f64::query::PointQuery;
+use parry2d_f64::math::Pose;
 use parry2d_f64::query::details::distance_segment_segment;
 use parry2d_f64::shape::Segment;
-use parry2d_f64::utils::point_in_poly2d;
-use rand::{Rng, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 
 /// Relative to the diagonal of the box round shape and segment: the ε of the project.
 const BAND: f64 = 1e-9;
-
-struct Draw(ChaCha8Rng);
-
-impl Draw {
-    fn new(seed: u64) -> Self {
-        Self(ChaCha8Rng::seed_from_u64(seed))
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * (self.0.next_u64() >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        (self.0.next_u64() % n as u64) as usize
-    }
-
-    /// Uniform in its logarithm.
-    fn log(&mut self, low: f64, high: f64) -> f64 {
-        10f64.powf(self.between(low.log10(), high.log10()))
-    }
-
-    fn sign(&mut self) -> f64 {
-        [-1.0, 1.0][self.below(2)]
-    }
-
-    fn direction(&mut self) -> Vector {
-        let angle = self.between(0.0, std::f64::consts::TAU);
-        Vector::new(angle.cos(), angle.sin())
-    }
-
-    fn point(&mut self, centre: Point, half: f64) -> Point {
-        centre + Vector::new(self.between(-half, half), self.between(-half, half))
-    }
-
-    /// Corners at rising angles round `centre`; convex when all are on one circle.
-    fn polygon(&mut self, centre: Point, scale: f64, convex: bool) -> Vec<[f64; 2]> {
-        loop {
-            let n = 3 + self.below(8);
-            let turn = self.between(0.0, std::f64::consts::TAU);
-            let mut corners: Vec<[f64; 2]> = (0..n)
-                .map(|i| {
-                    let angle = turn + (i as f64 + self.between(0.0, 0.8)) * std::f64::consts::TAU / n as f64;
-                    let radius = if convex { scale } else { scale * self.between(0.15, 1.0) };
-                    (centre + Vector::new(angle.cos(), angle.sin()) * radius).into()
-                })
-                .collect();
-            if self.below(2) == 0 {
-                corners.reverse();
-            }
-            if Polygon::new(corners.iter().map(|c| (*c).into()).collect()).is_ok() {
-                return corners;
-            }
-        }
-    }
-
-    fn shape(&mut self, kind: usize, centre: Point, scale: f64) -> Shape {
-        match kind {
-            0 => Shape::Disc { centre: centre.into(), radius: scale * self.between(0.01, 1.0) },
-            1 => {
-                let (from, to) = (self.point(centre, scale).into(), self.point(centre, scale).into());
-                Shape::Capsule { from, to, radius: scale * self.between(0.01, 0.6) }
-            }
-            2 => Shape::Polygon(self.polygon(centre, scale, true)),
-            _ => Shape::Polygon(self.polygon(centre, scale, false)),
-        }
-    }
-}
-
-fn pv(p: Point) -> ParryVector {
-    ParryVector::new(p.x, p.y)
-}
-
-fn to_point(p: [f64; 2]) -> Point {
-    p.into()
-}
-
-/// The corners of a shape's core (one for a disc, two for a capsule) and its own radius.
-fn core(shape: &Shape) -> (Vec<Point>, f64) {
-    match shape {
-        Shape::Disc { centre, radius } => (vec![to_point(*centre)], *radius),
-        Shape::Capsule { from, to, radius } => (vec![to_point(*from), to_point(*to)], *radius),
-        Shape::Polygon(corners) => (corners.iter().map(|c| to_point(*c)).collect(), 0.0),
-    }
-}
-
-fn point_segment(p: Point, a: Point, b: Point) -> f64 {
-    let proj = Segment::new(pv(a), pv(b)).project_local_point(pv(p), true);
-    (proj.point - pv(p)).length()
-}
 
 /// Every term is the distance of two points of the segments, so the least is the nearest to the truth:
 /// parry's pair alone is off by up to 3e-8 of the length for nearly parallel segments.
@@ -113,14 +23,6 @@ fn segment_segment(a: Point, b: Point, c: Point, d: Point) -> f64 {
         .min(point_segment(b, c, d))
         .min(point_segment(c, a, b))
         .min(point_segment(d, a, b))
-}
-
-fn inside(p: Point, corners: &[Point]) -> bool {
-    point_in_poly2d(pv(p), &corners.iter().map(|c| pv(*c)).collect::<Vec<_>>())
-}
-
-fn sides(corners: &[Point]) -> impl Iterator<Item = (Point, Point)> {
-    (0..corners.len()).map(move |i| (corners[i], corners[(i + 1) % corners.len()]))
 }
 
 /// What the oracle says of the segment: outside, its clearance; for a polygon whose inside it
@@ -144,20 +46,6 @@ fn oracle(shape: &Shape, robot_radius: f64, a: Point, b: Point) -> Answer {
             Answer { clearance, enters_polygon: inside(a, &corners) || clearance < -reach }
         }
     }
-}
-
-/// Signed distance of a point to an inflated shape.
-fn point_oracle(shape: &Shape, robot_radius: f64, p: Point) -> f64 {
-    let (corners, radius) = core(shape);
-    let d = match corners.as_slice() {
-        [c] => (p - c).norm(),
-        [c, d] => point_segment(p, *c, *d),
-        _ => {
-            let d = sides(&corners).map(|(c, e)| point_segment(p, c, e)).fold(f64::INFINITY, f64::min);
-            if inside(p, &corners) { -d } else { d }
-        }
-    };
-    d - radius - robot_radius
 }
 
 fn scene(obstacles: Vec<Obstacle>, robot_radius: f64, a: Point, b: Point) -> Scene {

@@ -22,6 +22,8 @@ pub struct Arena {
     pub compile_us: f64,
     /// What it is for.
     pub set: SceneSet,
+    /// What moves in it, where something does.
+    pub simulation: Option<strategy::Settings>,
 }
 
 impl Arena {
@@ -31,7 +33,7 @@ impl Arena {
         let world = World::new(&scene)?;
         let compile_us = micros(began);
         scene.validate_ends(&world)?;
-        Ok(Self { scene, world, compile_us, set: SceneSet::Test })
+        Ok(Self { scene, world, compile_us, set: SceneSet::Test, simulation: None })
     }
 
     /// From the scene's start to its goal.
@@ -40,14 +42,23 @@ impl Arena {
     }
 
     /// The scene and its exact optimum, or why that is not known.
-    pub fn result(&self) -> SceneResult {
-        SceneResult { scene: self.scene.clone(), optimum: self.optimum(), set: self.set, simulation: None }
+    pub fn result(&self, subject: Subject) -> SceneResult {
+        SceneResult {
+            scene: self.scene.clone(),
+            optimum: self.optimum(subject),
+            set: self.set,
+            simulation: self.simulation.clone(),
+        }
     }
 
-    fn optimum(&self) -> Optimum {
+    fn optimum(&self, subject: Subject) -> Optimum {
+        let none = |reason| Optimum { length: None, path: Vec::new(), reason: Some(reason) };
+        if let Some(reason) = subject.no_optimum() {
+            return none(reason.to_owned());
+        }
         match self.problem() {
             Ok(problem) => optimum::of(&problem),
-            Err(e) => Optimum { length: None, path: Vec::new(), reason: Some(e.to_string()) },
+            Err(e) => none(e.to_string()),
         }
     }
 }
@@ -68,7 +79,10 @@ pub struct Campaign {
 impl Campaign {
     /// Compiles every scene.
     pub fn new(comparison: Comparison) -> Result<Self, SceneError> {
-        let arena = |entry: &SceneEntry| Ok(Arena { set: entry.set, ..Arena::new(entry.scene.clone())? });
+        let arena = |entry: &SceneEntry| {
+            let simulation = entry.simulation.clone();
+            Ok(Arena { set: entry.set, simulation, ..Arena::new(entry.scene.clone())? })
+        };
         let arenas = comparison.scenes.iter().map(arena).collect::<Result<_, SceneError>>()?;
         Ok(Self { comparison, arenas })
     }
@@ -127,7 +141,7 @@ impl Campaign {
 
     /// The results before the first run: everything but runs.
     pub fn empty_results(&self, jobs: usize) -> Results {
-        let Comparison { name, seed, repeats, planners, notes, .. } = &self.comparison;
+        let Comparison { name, seed, repeats, subject, protocol, planners, notes, .. } = &self.comparison;
         let mut manifest = machine::manifest(jobs);
         manifest.identity = self.identity();
         manifest.notes.clone_from(notes);
@@ -135,8 +149,8 @@ impl Campaign {
             name: name.clone(),
             seed: *seed,
             repeats: *repeats,
-            subject: Subject::Paths,
-            protocol: String::new(),
+            subject: *subject,
+            protocol: protocol.as_ref().and_then(|p| toml::to_string(p).ok()).unwrap_or_default(),
             planners: planners
                 .iter()
                 .map(|p| {
@@ -156,7 +170,7 @@ impl Campaign {
                     }
                 })
                 .collect(),
-            scenes: self.arenas.iter().map(Arena::result).collect(),
+            scenes: self.arenas.iter().map(|arena| arena.result(*subject)).collect(),
             runs: Vec::new(),
             snapshots: Vec::new(),
             traces: Vec::new(),

@@ -18,17 +18,21 @@ pub struct Signature {
 impl Signature {
     /// Of a campaign that may be run.
     pub fn of(campaign: &Campaign) -> Self {
-        let scenes = campaign.comparison.scenes.iter().map(|entry| &entry.scene);
+        let scenes = campaign.comparison.scenes.iter().map(|entry| (&entry.scene, &entry.simulation));
         Self::new(env!("CARGO_PKG_VERSION"), &campaign.comparison.portable_toml(), scenes)
     }
 
     /// Of a campaign that is kept.
     pub fn of_stored(stored: &Stored) -> Self {
-        let scenes = stored.results.scenes.iter().map(|result| &result.scene);
+        let scenes = stored.results.scenes.iter().map(|result| (&result.scene, &result.simulation));
         Self::new(&stored.results.manifest.version, &stored.comparison, scenes)
     }
 
-    fn new<'s>(version: &str, comparison: &str, scenes: impl Iterator<Item = &'s Scene>) -> Self {
+    fn new<'s>(
+        version: &str,
+        comparison: &str,
+        scenes: impl Iterator<Item = (&'s Scene, &'s Option<strategy::Settings>)>,
+    ) -> Self {
         let mut comparison: toml::Table = comparison.parse().unwrap_or_default();
         let planners = comparison.get_mut("planner").and_then(toml::Value::as_table_mut);
         for planner in planners.into_iter().flatten().filter_map(|(_, planner)| planner.as_table_mut()) {
@@ -38,7 +42,9 @@ impl Signature {
         Self {
             version: version.to_owned(),
             comparison,
-            scenes: scenes.map(|scene| (scene.name.clone(), scene.to_toml())).collect(),
+            scenes: scenes
+                .map(|(scene, moving)| (scene.name.clone(), format!("{}{moving:?}", scene.to_toml())))
+                .collect(),
         }
     }
 }
@@ -49,7 +55,7 @@ pub fn differences(this: &Signature, that: &Signature) -> String {
     if this.version != that.version {
         found.push(format!("version {} instead of {}", this.version, that.version));
     }
-    for key in ["name", "seed", "repeats"] {
+    for key in ["name", "seed", "repeats", "behaviour"] {
         let [a, b] = [this, that].map(|s| s.comparison.get(key).map(ToString::to_string).unwrap_or_default());
         if a != b {
             found.push(format!("{key} {a} instead of {b}"));

@@ -2,9 +2,10 @@
 
 use std::fmt::Write as _;
 
-use crate::campaign::Campaign;
+use crate::campaign::{Arena, Campaign};
 use crate::config::{Maker, PlannerEntry};
 use crate::machine;
+use crate::results::Subject;
 use crate::work::Work;
 
 /// The worst case of the runs that are to be made.
@@ -22,14 +23,21 @@ pub struct Estimate {
     pub seconds: Option<f64>,
     /// Planners without any limit, in the comparison's order.
     pub unbounded: Vec<String>,
+    /// Seconds that are simulated at most, all runs together.
+    pub simulated: f64,
+    /// Whether what moves is compared, which has no process of its own.
+    moves: bool,
 }
 
 impl Estimate {
     /// Of the runs of `work`.
     pub fn new(campaign: &Campaign, work: &Work) -> Self {
         let planners = &campaign.comparison.planners;
-        let limits: Vec<Option<f64>> = planners.iter().map(|entry| limit(entry, work.isolate)).collect();
-        let (mut runs, mut total, mut longest) = (0_usize, 0.0_f64, 0.0_f64);
+        let of = |scene: usize| -> Vec<Option<f64>> {
+            planners.iter().map(|entry| limit(entry, &campaign.arenas[scene], work.isolate)).collect()
+        };
+        let limits: Vec<Vec<Option<f64>>> = (0..campaign.arenas.len()).map(of).collect();
+        let (mut runs, mut total, mut longest, mut simulated) = (0_usize, 0.0_f64, 0.0_f64, 0.0_f64);
         let mut used = vec![vec![0_usize; planners.len()]; campaign.arenas.len()];
         let repeats = campaign.comparison.repeats as usize;
         for (scene, used) in used.iter_mut().enumerate() {
@@ -38,41 +46,50 @@ impl Estimate {
             work.done
                 .range((scene, 0, 0)..(scene + 1, 0, 0))
                 .for_each(|(_, planner, _)| used[*planner] = used[*planner].saturating_sub(1));
-            let times = used.iter().zip(&limits).map(|(n, limit)| (*n, limit.unwrap_or(0.0)));
+            let times = used.iter().zip(&limits[scene]).map(|(n, limit)| (*n, limit.unwrap_or(0.0)));
+            let lasts = campaign.arenas[scene].simulation.as_ref().map_or(0.0, |s| s.duration_s);
+            simulated += used.iter().sum::<usize>() as f64 * lasts;
             runs += used.iter().sum::<usize>();
             total += times.clone().map(|(n, limit)| n as f64 * limit).sum::<f64>();
             // No unit has more than every planner of which any run is missing.
             longest = longest.max(times.map(|(n, limit)| if n > 0 { limit } else { 0.0 }).sum());
         }
         // Every job warms a planner up that it runs in a scene.
-        let warm = |planner: usize, n: usize| {
-            let apart = work.isolate || planners[planner].isolated();
-            if apart { 0.0 } else { limits[planner].unwrap_or(0.0) * n.min(work.jobs) as f64 }
+        let moves = campaign.comparison.subject != Subject::Paths;
+        let warm = |planner: usize, limits: &[Option<f64>], n: usize| {
+            let cold = moves || work.isolate || planners[planner].isolated();
+            if cold { 0.0 } else { limits[planner].unwrap_or(0.0) * n.min(work.jobs) as f64 }
         };
-        let warm: f64 = used.iter().flat_map(|row| row.iter().enumerate()).map(|(planner, n)| warm(planner, *n)).sum();
+        let rows = used.iter().zip(&limits);
+        let warm: f64 = rows.flat_map(|(row, l)| row.iter().enumerate().map(|(planner, n)| warm(planner, l, *n))).sum();
         let needed = |planner: usize| used.iter().any(|row| row[planner] > 0);
         let unbounded: Vec<String> = (0..planners.len())
-            .filter(|planner| limits[*planner].is_none() && needed(*planner))
+            .filter(|planner| limits.iter().any(|l| l[*planner].is_none()) && needed(*planner))
             .map(|planner| planners[planner].label.clone())
             .collect();
         let jobs = work.jobs as f64;
         let seconds = (total + warm) / jobs + (1.0 - 1.0 / jobs) * longest;
-        Self { runs, seconds: unbounded.is_empty().then_some(seconds), unbounded }
+        Self { runs, seconds: unbounded.is_empty().then_some(seconds), unbounded, simulated, moves }
     }
 
     /// What is said before the campaign.
     pub fn words(&self) -> String {
         /// More labels would hide the sentence.
         const MOST: usize = 4;
+        let simulated = match self.simulated {
+            0.0 => String::new(),
+            s => format!("at most {} are simulated; ", duration(s)),
+        };
         if let Some(seconds) = self.seconds {
             let end = machine::after(seconds.ceil() as u64);
-            return format!("at most about {} of planning, until {end}", duration(seconds));
+            return format!("{simulated}at most about {} of planning, until {end}", duration(seconds));
         }
         let mut labels = self.unbounded.iter().take(MOST).cloned().collect::<Vec<_>>().join(", ");
         if let Some(more @ 1..) = self.unbounded.len().checked_sub(MOST) {
             let _ = write!(labels, " and {more} more");
         }
-        format!("no limit is known for {labels}: their time has no bound without a time budget or --isolate")
+        let how = if self.moves { "a time budget" } else { "a time budget or --isolate" };
+        format!("{simulated}no limit is known for {labels}: their time has no bound without {how}")
     }
 }
 
@@ -80,12 +97,19 @@ impl Estimate {
 const START: f64 = 60.0;
 
 /// The longest that one run may take, s.
-fn limit(entry: &PlannerEntry, isolate: bool) -> Option<f64> {
+fn limit(entry: &PlannerEntry, arena: &Arena, isolate: bool) -> Option<f64> {
     if isolate || entry.isolated() {
         let start = if matches!(entry.maker, Maker::External(_)) { START } else { 0.0 };
         return Some(2.0 * entry.hard_limit().as_secs_f64() + start);
     }
-    entry.budget.time_ms.map(|ms| ms / 1000.0)
+    match (&entry.maker, &arena.simulation) {
+        (Maker::Parameters(_) | Maker::Tuning(_), _) => None,
+        // The budget is a call's: one for each robot and frame.
+        (_, Some(s)) => {
+            entry.budget.time_ms.map(|ms| ms / 1000.0 * (s.duration_s * s.frame_rate).ceil() * s.robots as f64)
+        }
+        (_, None) => entry.budget.time_ms.map(|ms| ms / 1000.0),
+    }
 }
 
 /// `12 s`, `3 min 20 s`, `5 h 12 min`, `2 d 3 h`.

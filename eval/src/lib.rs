@@ -1,6 +1,7 @@
 //! The bench: config → runs → verdicts → scores → statistics → report.
 
 pub mod analysis;
+mod behaviour;
 pub mod campaign;
 pub mod cli;
 pub mod compare;
@@ -24,6 +25,7 @@ pub mod results;
 pub mod runner;
 pub mod seeds;
 mod shell;
+mod simulate;
 pub mod snapshot;
 pub mod statistics;
 pub mod status;

@@ -3,7 +3,11 @@
 //! Every metric keeps its value when a path is resampled without changing its
 //! course: points are never averaged over.
 
+mod moving;
+
 use env_model::Point;
+
+pub use moving::{MOVING, MovingMetric};
 
 /// A metric as `touchline list metrics` and the report name it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize)]

@@ -6,6 +6,8 @@
 //! last one of each is copied. Count budgets make both replays the run again; a run that had a
 //! deadline is replayed with its recorded iterations instead.
 
+mod moving;
+
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -14,14 +16,19 @@ use planner_api::{Budget, Frame, Observer, Plan, PopulationView, Run, View};
 use crate::campaign::{Arena, Campaign};
 use crate::config::PlannerEntry;
 use crate::report::FULL;
-use crate::results::{RunRecord, RunStatus};
+use crate::results::{RunRecord, RunStatus, Subject};
 use crate::snapshot::{MOST_GENERATIONS, Ruler, Snapshot, has_state, state};
 use crate::statistics::quantile;
+
+pub use moving::traces;
 
 /// Snapshots of every planner in the scenes that reports show in full, in the order of scenes
 /// and planners. `runs` are the campaign's, sorted by repeat within scene and planner.
 pub fn snapshots(campaign: &Campaign, runs: &[RunRecord]) -> Vec<Snapshot> {
     let mut all = Vec::new();
+    if campaign.comparison.subject != Subject::Paths {
+        return all;
+    }
     for arena in campaign.arenas.iter().take(FULL) {
         for entry in &campaign.comparison.planners {
             let of: Vec<&RunRecord> =

@@ -9,6 +9,7 @@
 //! times depend neither on the number of jobs nor on isolation. Processes are
 //! kept, up to a bound; those that were not asked for the longest time end first.
 
+use std::any::Any;
 use std::collections::VecDeque;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -21,11 +22,11 @@ use crate::campaign::{Arena, Campaign, micros};
 use crate::config::BudgetSpec;
 use crate::error::Error;
 use crate::recorder::Recorder;
-use crate::results::{RunRecord, RunStatus};
+use crate::results::{RunRecord, RunStatus, Subject};
 use crate::verdict::{Fault, Judge};
 use crate::work::Work;
 use crate::worker::Seat;
-use crate::{metrics, seeds};
+use crate::{behaviour, metrics, seeds, simulate};
 
 /// How many processes the bench keeps, all threads together: each holds three descriptors, of which many systems
 /// allow 1024 by default.
@@ -92,7 +93,10 @@ struct Worker<'c> {
 
 impl<'c> Worker<'c> {
     fn new(campaign: &'c Campaign, optima: &'c [Option<f64>], work: &'c Work) -> Self {
-        let seats = campaign.comparison.planners.iter().map(|entry| Seat::new(entry, work.isolate)).collect();
+        // What moves has no seat: it is built anew for every run.
+        let still = campaign.comparison.subject == Subject::Paths;
+        let planners = campaign.comparison.planners.iter().filter(|_| still);
+        let seats = planners.map(|entry| Seat::new(entry, work.isolate)).collect();
         Self { campaign, optima, work, seats, alive: VecDeque::new() }
     }
 
@@ -112,13 +116,17 @@ impl<'c> Worker<'c> {
             if self.work.done.contains(&(scene, index, repeat)) {
                 continue;
             }
-            self.make_room(index);
-            let run = self.seats[index].run(scene, arena, seed).map(|run| {
-                let mut record = judged(run, &judge, self.optima[scene]);
-                record.repeat = repeat;
-                record
-            });
-            sink(run)?;
+            let (entry, name) = (&comparison.planners[index], &arena.scene.name);
+            let run = match (&arena.simulation, &comparison.protocol) {
+                (Some(settings), _) => Ok(simulate::run(entry, name, settings, seed).0),
+                (None, Some(protocol)) => Ok(behaviour::run(entry, name, protocol, seed)),
+                (None, None) => {
+                    self.make_room(index);
+                    let run = self.seats[index].run(scene, arena, seed);
+                    run.map(|run| judged(run, &judge, self.optima[scene]))
+                }
+            };
+            sink(run.map(|run| RunRecord { repeat, ..run }))?;
         }
         Ok(())
     }
@@ -171,12 +179,7 @@ pub fn run_once(
     let (status, time_us, cpu) = match outcome {
         Ok(outcome) => outcome,
         Err(panic) => {
-            let message = panic
-                .downcast_ref::<&str>()
-                .map(|s| (*s).to_owned())
-                .or_else(|| panic.downcast_ref::<String>().cloned())
-                .unwrap_or_else(|| "without a message".to_owned());
-            record.error = Some(format!("the planner panicked: {message}"));
+            record.error = Some(panicked(panic.as_ref()));
             record.time_us = micros(began);
             record.cpu_us = cpu_began.elapsed().as_nanos() as f64 / 1000.0;
             return (record, true);
@@ -211,6 +214,12 @@ pub fn run_once(
         Err(e) => record.error = Some(e.to_string()),
     }
     (record, false)
+}
+
+/// What is told of a planner that panicked.
+pub fn panicked(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().copied().or_else(|| panic.downcast_ref::<String>().map(String::as_str));
+    format!("the planner panicked: {}", text.unwrap_or("without a message"))
 }
 
 /// The record with the judge's verdict and all metrics.

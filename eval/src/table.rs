@@ -1,16 +1,23 @@
 //! The comparison as a table for the terminal.
 
-use comfy_table::{Cell, CellAlignment, LineStyle, Table, TableStyle};
+mod moving;
+
+use comfy_table::{CellAlignment, LineStyle, Table, TableStyle};
 
 use crate::analysis::{Summary, summarise};
 use crate::format;
-use crate::results::{Results, SceneSet};
+use crate::results::{Results, SceneSet, Subject};
 
 /// With more scenes only the table over all of them is printed.
 const MOST_SCENES: usize = 4;
 
 /// The tables: over all scenes when there are several, and one for each of a few.
 pub fn render(results: &Results) -> String {
+    if results.subject == Subject::Behaviour {
+        let note = "Medians over repeats, each with scenarios of its own; fitness is better the nearer it is to 1.\n";
+        return format!("{}\n{note}", moving::tunings(results));
+    }
+    let moves = results.subject == Subject::Simulation;
     let scenes: Vec<&str> = results.scenes.iter().map(|s| s.scene.name.as_str()).collect();
     let mut out = String::new();
     let tuning = results.scenes.iter().filter(|s| s.set == SceneSet::Tuning).count();
@@ -25,6 +32,7 @@ pub fn render(results: &Results) -> String {
         for scene in &results.scenes {
             let name = &scene.scene.name;
             let optimum = match &scene.optimum.length {
+                _ if moves => "moving".to_owned(),
                 Some(length) => format!("optimum {}", format::length(*length)),
                 None => format!("no valid path: {}", scene.optimum.reason.as_deref().unwrap_or("not computed")),
             };
@@ -34,6 +42,10 @@ pub fn render(results: &Results) -> String {
     } else {
         out.push_str("Scene by scene: see summary.csv and report.html.\n");
     }
+    if moves {
+        out.push_str(moving::LEGEND);
+        return out;
+    }
     if scenes.len() - tuning > 1 {
         out.push_str("Over several scenes: medians and quartiles of the scenes' medians.\n");
     }
@@ -42,15 +54,22 @@ pub fn render(results: &Results) -> String {
 }
 
 fn one(results: &Results, scene: Option<&str>) -> String {
+    if results.subject == Subject::Simulation {
+        return moving::simulations(results, scene);
+    }
+    let header = ["planner", "valid", "median length", "gap", "IQR", "median time", "evaluations"];
+    let rows = results.planners.iter().filter_map(|planner| summarise(results, &planner.label, scene));
+    framed(&header, rows.map(|summary| row(&summary)))
+}
+
+/// A table whose first column is text and whose others are figures.
+fn framed(header: &[&str], rows: impl Iterator<Item = Vec<String>>) -> String {
     let mut table = Table::new();
     let line = LineStyle::none().fill('─').junction('─');
     table.load_style(TableStyle::new().header_separator(line).bottom_border(line));
-    let header = ["planner", "valid", "median length", "gap", "IQR", "median time", "evaluations"];
     table.set_header(header);
-    for planner in &results.planners {
-        if let Some(summary) = summarise(results, &planner.label, scene) {
-            table.add_row(row(&summary));
-        }
+    for row in rows {
+        table.add_row(row);
     }
     for column in table.column_iter_mut().skip(1) {
         column.set_cell_alignment(CellAlignment::Right);
@@ -58,9 +77,9 @@ fn one(results: &Results, scene: Option<&str>) -> String {
     table.to_string()
 }
 
-fn row(s: &Summary) -> Vec<Cell> {
+fn row(s: &Summary) -> Vec<String> {
     let [q1, q3] = s.length_quartiles.map(format::length);
-    let cells = [
+    vec![
         s.planner.clone(),
         format!("{}/{}", s.valid, s.runs),
         format::length(s.length_median),
@@ -68,8 +87,7 @@ fn row(s: &Summary) -> Vec<Cell> {
         format!("{q1} … {q3}"),
         format::time(s.time_us_median),
         format::count(s.evaluations_median),
-    ];
-    cells.into_iter().map(Cell::new).collect()
+    ]
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use planner_api::{Candidates, Plan, PlanError, Planner, PopulationView, Problem,
 
 use crate::campaign::Campaign;
 use crate::config::{BudgetSpec, Comparison, Limits, Maker, PlannerEntry, SceneEntry};
-use crate::results::{RunRecord, SceneSet};
+use crate::results::{RunRecord, SceneSet, Subject};
 use crate::runner;
 use crate::work::Work;
 
@@ -164,6 +164,18 @@ pub fn scene(name: &str) -> Scene {
 }
 
 pub fn campaign(planners: Vec<PlannerEntry>) -> Campaign {
-    let scenes = [scene("b-scene"), scene("a-scene")].map(|scene| SceneEntry { scene, set: SceneSet::Test }).into();
-    Campaign::new(Comparison { name: "test".into(), seed: 3, repeats: 5, scenes, planners, notes: Vec::new() }).unwrap()
+    let scenes = [scene("b-scene"), scene("a-scene")]
+        .map(|scene| SceneEntry { scene, set: SceneSet::Test, simulation: None })
+        .into();
+    Campaign::new(Comparison {
+        name: "test".into(),
+        seed: 3,
+        repeats: 5,
+        subject: Subject::Paths,
+        protocol: None,
+        scenes,
+        planners,
+        notes: Vec::new(),
+    })
+    .unwrap()
 }

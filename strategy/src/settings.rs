@@ -78,7 +78,7 @@ pub struct Settings {
     pub jitter: f64,
     /// How the robots of the team regard each other; default independent.
     pub cooperation: Cooperation,
-    /// Whether to brake where a collision is due before the robot could stop; default false: planners are compared.
+    /// Whether robots brake while they still can stop in time; default false: planners are compared, not brakes.
     pub emergency_brake: bool,
     /// By how much a new way must be quicker than the one under way, 0 to 1; default 0.
     pub hysteresis: f64,

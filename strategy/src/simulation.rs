@@ -11,11 +11,10 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::league::ROBOT_RADIUS;
 use crate::plays::{Conduct, Play, Setup, play};
+use crate::record::Stopwatch;
 use crate::referee::Referee;
 use crate::team::guard;
-use crate::{
-    Body, Compute, Metrics, Record, RobotRecord, Settings, Task, Team, TeamSettings, Trace, TraceBody, View, draw,
-};
+use crate::{Body, Metrics, Record, RobotRecord, Settings, Task, Team, TeamSettings, Trace, TraceBody, View, draw};
 
 /// A robot has arrived where it is no further from its goal, in metres, and slower, in m/s.
 const ARRIVED: [f64; 2] = [0.02, 0.05];
@@ -91,8 +90,8 @@ pub struct Simulation {
     switches: u64,
     stuck: f64,
     metrics: Metrics,
-    calls: Vec<f64>,
-    frames: Vec<f64>,
+    stopwatch: Stopwatch,
+    traced: bool,
     trace: Trace,
 }
 
@@ -112,13 +111,14 @@ impl Simulation {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let mut play = play(settings.play);
         let Setup { own, opponents, ball, goals } = play.setup(settings, &mut rng);
-        let guards = (0..own.len()).map(|_| build(planner.0, planner.1, settings)).collect::<Result<Vec<_>, _>>()?;
+        let guards = (0..own.len()).map(|_| build(planner.0, planner.1)).collect::<Result<Vec<_>, _>>()?;
         let team_settings = TeamSettings {
             period: settings.period(),
             horizon: settings.horizon_s,
             margin: settings.margin,
             cooperation: settings.cooperation,
             hysteresis: settings.hysteresis,
+            emergency_brake: settings.emergency_brake,
         };
         let bodies: Vec<Body> = own.iter().chain(&opponents).map(|state| Body::new(*state, limits)).collect();
         let body = |side: &str| TraceBody { side: side.to_owned(), radius: ROBOT_RADIUS };
@@ -149,12 +149,18 @@ impl Simulation {
             switches: 0,
             stuck: 0.0,
             metrics: Metrics { robots: n, ..Metrics::default() },
-            calls: Vec::new(),
-            frames: Vec::new(),
+            stopwatch: Stopwatch::new(1e6 * settings.period()),
+            traced: true,
             trace: Trace { period_s: PICTURES, bodies: sides, ..Trace::default() },
             bodies,
             settings: settings.clone(),
         })
+    }
+
+    /// The same without a trace, whose length grows with the time.
+    #[must_use]
+    pub fn without_trace(self) -> Self {
+        Self { traced: false, ..self }
     }
 
     /// Seconds since the beginning.
@@ -183,7 +189,7 @@ impl Simulation {
     /// [`SimulationError::Build`]
     pub fn swap(&mut self, kind: &str, settings: &str) -> Result<(), SimulationError> {
         for robot in 0..self.starts.len() {
-            self.team.swap(robot, build(kind, settings, &self.settings)?);
+            self.team.swap(robot, build(kind, settings)?);
         }
         Ok(())
     }
@@ -207,8 +213,7 @@ impl Simulation {
         self.play.oppose(&view, &mut self.conducts);
         let budget = self.budget;
         self.team.plan(&view, &self.tasks, &self.worlds, self.seed, &|| budget.now(), clock);
-        self.calls.extend(&self.team.call_times);
-        self.frames.push(self.team.call_times.iter().sum());
+        self.stopwatch.frame(&self.team.call_times);
         self.count(period);
         for (orders, answer) in self.orders.iter_mut().zip(self.team.answers()) {
             // What was overtaken is reused.
@@ -340,7 +345,7 @@ impl Simulation {
     }
 
     fn picture(&mut self, time: f64) {
-        if time + 1e-9 >= self.trace.frames.len() as f64 * PICTURES {
+        if self.traced && time + 1e-9 >= self.trace.frames.len() as f64 * PICTURES {
             self.trace.frames.push(self.bodies.iter().map(|b| b.state.position.into()).collect());
         }
     }
@@ -384,14 +389,12 @@ impl Simulation {
             ..self.metrics
         };
         self.trace.events = events;
-        let compute = Compute::new(&mut self.calls, &mut self.frames, 1e6 * self.settings.period());
-        Record { metrics, robots, compute, trace: self.trace }
+        Record { metrics, robots, compute: self.stopwatch.compute(), trace: self.trace }
     }
 }
 
-fn build(kind: &str, settings: &str, simulation: &Settings) -> Result<planner_control::Guard, SimulationError> {
-    guard(kind, settings, simulation.emergency_brake)
-        .map_err(|source| SimulationError::Build { planner: kind.to_owned(), source })
+fn build(kind: &str, settings: &str) -> Result<planner_control::Guard, SimulationError> {
+    guard(kind, settings).map_err(|source| SimulationError::Build { planner: kind.to_owned(), source })
 }
 
 /// The empty field.

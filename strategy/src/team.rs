@@ -2,8 +2,8 @@
 
 use env_model::motion::{Limits, Mover, Path, Side, State, Trajectory, brake, first_contact};
 use env_model::{Point, World};
-use planner_api::{Budget, ControlError, Controller, Counters, Run, Situation, seed::splitmix64};
-use planner_control::{Answer, Guard, Safety};
+use planner_api::{Budget, ControlError, Counters, Run, Situation, seed::splitmix64};
+use planner_control::{Answer, Guard, Safety, stop_after, stop_in_time};
 
 use crate::Cooperation;
 use crate::league::ROBOT_RADIUS;
@@ -45,6 +45,8 @@ pub struct TeamSettings {
     pub cooperation: Cooperation,
     /// By how much a new way must be quicker than the one under way, 0 to 1.
     pub hysteresis: f64,
+    /// Whether robots brake while they still can stop in time.
+    pub emergency_brake: bool,
 }
 
 /// A robot's way is kept only where it is still on it: within these, in metres and m/s.
@@ -59,8 +61,8 @@ pub struct Team {
     answers: Vec<Answer>,
     /// Answers of the frame before, seen from now.
     before: Vec<Answer>,
-    /// Everybody's way to stop, from now.
-    brakes: Vec<Trajectory>,
+    /// Everybody's way to stop: from now, and of those who have planned, after following their answers for a period.
+    stops: Vec<Trajectory>,
     scratch: Answer,
     frame: u64,
     /// What went wrong in the last frame, by robot.
@@ -80,7 +82,7 @@ impl Team {
             guards,
             answers: vec![Answer::default(); n],
             before: vec![Answer::default(); n],
-            brakes: vec![Trajectory::default(); n],
+            stops: vec![Trajectory::default(); n],
             scratch: Answer::default(),
             frame: 0,
             errors: Vec::new(),
@@ -124,7 +126,7 @@ impl Team {
         self.work = Counters::default();
         std::mem::swap(&mut self.answers, &mut self.before);
         for (before, (way, (state, task))) in
-            self.before.iter_mut().zip(self.brakes.iter_mut().zip(view.own.iter().zip(tasks)))
+            self.before.iter_mut().zip(self.stops.iter_mut().zip(view.own.iter().zip(tasks)))
         {
             before.trajectory.advance(self.settings.period);
             brake(*state, task.limits, way);
@@ -136,6 +138,7 @@ impl Team {
             let began = clock();
             self.one(i, view, task, worlds, first, &mut run, &mut answer);
             self.call_times.push(clock() - began);
+            stop_after(&answer.trajectory, self.settings.period, task.limits, &mut self.stops[i]);
             self.scratch = std::mem::replace(&mut self.answers[i], answer);
             self.work.iterations += run.spent.iterations;
             self.work.evaluations += run.spent.evaluations;
@@ -157,7 +160,8 @@ impl Team {
         answer: &mut Answer,
     ) {
         let TeamSettings { period, horizon, .. } = self.settings;
-        let movers = movers(&self.settings, i, view, &self.answers, &self.brakes);
+        let later = |j: usize| if j < i { &self.answers[j].trajectory } else { &self.stops[j] };
+        let movers = movers(&self.settings, i, view, later);
         let world = &worlds[task.world];
         let situation = Situation::new(world, &movers, view.own[i], task.goal, task.limits, horizon, period);
         let result = match situation {
@@ -166,6 +170,12 @@ impl Team {
                 if !first && result.is_ok() && keeps(&self.before[i], answer, &situation, self.settings.hysteresis) {
                     answer.trajectory.copy_from(&self.before[i].trajectory);
                     answer.contact = None;
+                }
+                if self.settings.emergency_brake {
+                    let movers = self::movers(&self.settings, i, view, |j| &self.stops[j]);
+                    let mut stopping = situation;
+                    stopping.movers = &movers;
+                    stop_in_time(&stopping, answer);
                 }
                 result
             }
@@ -184,20 +194,18 @@ impl Team {
     }
 }
 
-/// What robot `i` sees move.
+/// What robot `i` sees move; a mate that plans with it as `way` says.
 fn movers<'m>(
     settings: &TeamSettings,
     i: usize,
     view: &View<'_>,
-    answers: &'m [Answer],
-    brakes: &'m [Trajectory],
+    way: impl Fn(usize) -> &'m Trajectory,
 ) -> Vec<Mover<'m>> {
     let radius = 2.0 * ROBOT_RADIUS;
     let mates = view.own.iter().enumerate().filter(|(j, _)| *j != i).map(|(j, mate)| {
         let path = match settings.cooperation {
             Cooperation::Independent => Path::Velocity(mate.velocity),
-            Cooperation::Priority if j < i => Path::Trajectory(&answers[j].trajectory),
-            Cooperation::Priority => Path::Trajectory(&brakes[j]),
+            Cooperation::Priority => Path::Trajectory(way(j)),
         };
         Mover::disc(mate.position, radius, path, Side::Mate)
     });
@@ -222,12 +230,10 @@ fn keeps(old: &Answer, new: &Answer, situation: &Situation<'_>, hysteresis: f64)
         && first_contact(&old.trajectory, situation.world, situation.movers, situation.horizon).is_none()
 }
 
-/// A guard round a controller built by name.
+/// A guard round a controller built by name. It does not brake by itself: the team does.
 ///
 /// # Errors
 /// [`planner_catalogue::BuildError`] names what is wrong with kind or settings.
-pub fn guard(kind: &str, settings: &str, emergency_brake: bool) -> Result<Guard, planner_catalogue::BuildError> {
-    let built = planner_catalogue::build_controller_str(kind, settings)?;
-    let controller: Box<dyn Controller> = built.controller;
-    Ok(Guard::new(controller).with_emergency_brake(emergency_brake))
+pub fn guard(kind: &str, settings: &str) -> Result<Guard, planner_catalogue::BuildError> {
+    Ok(Guard::new(planner_catalogue::build_controller_str(kind, settings)?.controller))
 }

@@ -13,13 +13,13 @@ use crate::{Point, Vector};
 const HALVINGS: usize = 40;
 
 /// Brakes as hard as possible from where `trajectory` ends now until it stands.
-fn stop(trajectory: &mut Trajectory, limits: Limits) {
+pub(super) fn stop(trajectory: &mut Trajectory, limits: Limits) {
     slow_down(trajectory, 0.0, limits);
     let end = trajectory.end();
     trajectory.end_at(State::at_rest(end.position));
 }
 
-fn slow_down(trajectory: &mut Trajectory, to: f64, limits: Limits) {
+pub(super) fn slow_down(trajectory: &mut Trajectory, to: f64, limits: Limits) {
     let v = trajectory.end().velocity;
     let speed = v.norm();
     if speed > to {

@@ -13,8 +13,21 @@ const SECTIONS: usize = 40;
 ///
 /// Seen along any direction n the motion is one along an axis with the same limits, so T ≥ T₁(n·d, n·v); the bound is
 /// the maximum over directions. Every direction tried gives a true bound; from rest the one towards the goal is exact.
-/// A start above the speed limit is taken as it is: it needs that long to brake.
+/// A start above the speed limit first brakes down to it, straight on, as all motions here do: seen along another
+/// direction than its own it may be too fast for longer than one axis would need.
 pub fn least_time(state: State, goal: Point, limits: Limits) -> f64 {
+    let speed = state.velocity.norm();
+    if speed <= limits.speed {
+        return within_limits(state, goal, limits);
+    }
+    let first = (speed - limits.speed) / limits.acceleration;
+    let way = 0.5 * (speed + limits.speed) * first;
+    let along = state.velocity / speed;
+    let braked = State { position: state.position + along * way, velocity: along * limits.speed };
+    first + within_limits(braked, goal, limits)
+}
+
+fn within_limits(state: State, goal: Point, limits: Limits) -> f64 {
     let d = goal - state.position;
     let along = |angle: f64| {
         let n = Vector::new(libm::cos(angle), libm::sin(angle));

@@ -19,7 +19,7 @@ mod trajectory;
 pub use bang_bang::{bang_bang, brake};
 pub use bound::least_time;
 pub use contact::{Contact, Touched, first_contact, least_clearance};
-pub use follow::follow;
+pub use follow::{Follower, follow};
 pub use limits::{Limits, MotionError};
 pub use mover::{Mover, Path, Side};
 pub use trajectory::{Piece, State, Trajectory};

@@ -112,6 +112,20 @@ impl Trajectory {
         }
     }
 
+    /// Goes on as `leg` does in its first `time` seconds, wherever that begins.
+    pub fn append(&mut self, leg: &Self, time: f64) {
+        let mut left = time;
+        for piece in &leg.pieces {
+            self.push(piece.duration.min(left), piece.acceleration);
+            left -= piece.duration;
+            if left <= 0.0 {
+                return;
+            }
+        }
+        // What the sums give but for their rounding.
+        self.end = leg.end;
+    }
+
     /// Says where exactly it ends: what the sums of its pieces give but for their rounding.
     pub fn end_at(&mut self, end: State) {
         self.end = end;

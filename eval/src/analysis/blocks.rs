@@ -5,6 +5,7 @@
 //! one scene are no independent evidence about scenes.
 
 use super::grid::Grid;
+use super::summary::counted_gap;
 use crate::results::RunRecord;
 use crate::statistics::median;
 
@@ -14,9 +15,10 @@ const RESOLUTION: f64 = 1e-9;
 /// What is compared; less is better, and a run without a valid path is +∞ in each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Measure {
-    /// length/optimum − 1.
+    /// length/optimum − 1; of a simulation, arrival over least time, less 1.
     Gap,
-    /// Length in multiples of the scene's optimum or, where that is not known, of the least valid length in it.
+    /// Length in multiples of the scene's optimum or, where that is not known, of the least valid length in it; the
+    /// loss of a behaviour as it is.
     Length,
     /// Wall time, µs.
     Time,
@@ -31,9 +33,9 @@ pub enum Over {
     Scenes,
 }
 
-/// The measure of quality: the gap where every optimum is known, else the length.
+/// The measure of quality: the gap where every optimum is known, and of simulations; else the length.
 pub fn quality(grid: &Grid<'_>) -> Measure {
-    let known = grid.scenes.iter().all(|s| s.optimum.length.is_some());
+    let known = grid.scenes.iter().all(|s| s.simulation.is_some() || s.optimum.length.is_some());
     if known { Measure::Gap } else { Measure::Length }
 }
 
@@ -98,8 +100,10 @@ pub fn values_in(grid: &Grid<'_>, scene: usize, measure: Measure) -> Vec<Vec<f64
     let value = |run: &&RunRecord| match (measure, valid(run)) {
         (_, None) => f64::INFINITY,
         (Measure::Time, _) => run.time_us,
+        // A loss has a scale of its own, and may be 0.
+        (Measure::Length, Some(loss)) if run.tuning.is_some() => rounded(loss),
         (Measure::Length, Some(length)) => rounded(length / reference),
-        (Measure::Gap, Some(length)) => rounded((length / reference - 1.0).max(0.0)),
+        (Measure::Gap, Some(_)) => rounded(counted_gap(run, reference)),
     };
     planners.clone().map(|p| grid.runs(p, scene).iter().map(value).collect()).collect()
 }

@@ -21,7 +21,8 @@ pub struct Summary {
     pub length_quartiles: [f64; 2],
     /// Shortest valid length; +∞ without one.
     pub length_best: f64,
-    /// Median of length/optimum − 1; `None` unless the optimum of every scene is known.
+    /// Median of length/optimum − 1, of simulations that of arrival over least time; `None` unless the optimum of
+    /// every scene is known.
     pub gap_median: Option<f64>,
     /// Median wall time of all runs, µs.
     pub time_us_median: f64,
@@ -36,6 +37,13 @@ pub struct Summary {
 /// A run's length as it counts in statistics: +∞ unless valid.
 pub fn counted_length(run: &RunRecord) -> f64 {
     if run.valid { run.length.unwrap_or(f64::INFINITY) } else { f64::INFINITY }
+}
+
+/// A run's gap as it counts in statistics: +∞ unless valid, else at least 0. A simulation has its own least time;
+/// any other run is held against its scene's `reference` length.
+pub fn counted_gap(run: &RunRecord, reference: f64) -> f64 {
+    let own = run.gap.filter(|_| run.moving.is_some() && run.valid);
+    own.unwrap_or_else(|| counted_length(run) / reference - 1.0).max(0.0)
 }
 
 /// A run's own cost as it counts in statistics: +∞ unless valid.
@@ -64,7 +72,8 @@ fn in_scene(results: &Results, planner: &str, scene: &SceneResult, evaluations: 
     let runs: Vec<&RunRecord> = results.runs_of(planner, Some(name)).collect();
     let of = |f: &dyn Fn(&RunRecord) -> f64| runs.iter().map(|r| f(r)).collect::<Vec<f64>>();
     let lengths = of(&counted_length);
-    let gaps = scene.optimum.length.map(|_| of(&|r| r.gap.unwrap_or(f64::INFINITY)));
+    let gaps =
+        (scene.simulation.is_some() || scene.optimum.length.is_some()).then(|| of(&|r| r.gap.unwrap_or(f64::INFINITY)));
     Some(Summary {
         planner: planner.to_owned(),
         scene: Some(name.clone()),

@@ -10,7 +10,7 @@ use super::{CheckArgs, say, warn};
 use crate::campaign::Arena;
 use crate::config::{Comparison, Disk};
 use crate::error::Error;
-use crate::results::Optimum;
+use crate::results::{Optimum, Subject};
 
 pub(super) fn check(args: &CheckArgs) -> Result<ExitCode, Error> {
     let mut code = ExitCode::SUCCESS;
@@ -33,7 +33,7 @@ fn check_one(file: &Path, optimum: bool) -> Result<String, Error> {
         let comparison = Comparison::from_toml(&path, &text, &Disk::beside(file))?;
         let Comparison { name, repeats, scenes, planners, notes, .. } = &comparison;
         notes.iter().for_each(|note| warn(format_args!("note: {note}")));
-        if optimum {
+        if optimum && comparison.subject == Subject::Paths {
             scenes.iter().try_for_each(|entry| say_optimum(&entry.scene))?;
         }
         Ok(format!("comparison {name}, {} planners, {} scenes, {repeats} repeats", planners.len(), scenes.len()))
@@ -49,7 +49,7 @@ fn check_one(file: &Path, optimum: bool) -> Result<String, Error> {
 /// The exact shortest length, or why there is none.
 fn say_optimum(scene: &Scene) -> Result<(), Error> {
     let arena = Arena::new(scene.clone()).map_err(|e| Error::Usage(e.to_string()))?;
-    let Optimum { length, reason, .. } = arena.result().optimum;
+    let Optimum { length, reason, .. } = arena.result(Subject::Paths).optimum;
     let found = length.map_or_else(|| reason.unwrap_or_default(), |length| format!("{length:.8} {}", scene.unit));
     say(format!("{}: exact optimum {found}", scene.name));
     Ok(())
@@ -58,7 +58,7 @@ fn say_optimum(scene: &Scene) -> Result<(), Error> {
 /// A comparison is told by a key that scenes lack; what is neither is read as a scene.
 fn is_comparison(text: &str) -> bool {
     // Parsed as comparisons are: a table of values would refuse integers above i64.
-    let keys = ["planner", "scenes", "repeats", "budget"];
+    let keys = ["planner", "scenes", "repeats", "budget", "simulation", "behaviour"];
     DeTable::parse(text).is_ok_and(|table| keys.iter().any(|key| table.get_ref().contains_key(*key)))
 }
 

@@ -20,7 +20,9 @@ pub(super) fn merge(args: &MergeArgs) -> Result<ExitCode, Error> {
     if merged.missing.is_empty() {
         let comparison = Comparison::from_stored(&merged.stored)?;
         let campaign = Campaign::new(comparison).map_err(|e| Error::Usage(e.to_string()))?;
-        merged.stored.results.snapshots = replay::snapshots(&campaign, &merged.stored.results.runs);
+        let results = &mut merged.stored.results;
+        results.snapshots = replay::snapshots(&campaign, &results.runs);
+        results.traces = replay::traces(&campaign, &results.runs);
     }
     let name = &merged.stored.results.name;
     let claim = Claim::new(Some(&args.out), name)?;

@@ -17,7 +17,7 @@ use crate::error::Error;
 use crate::format;
 use crate::json;
 use crate::report::svg::{PathLayer, scene_svg};
-use crate::results::{RunRecord, SceneResult};
+use crate::results::{RunRecord, SceneResult, Subject};
 use crate::runner;
 use crate::trace::Tracer;
 use crate::verdict::Judge;
@@ -38,7 +38,7 @@ pub(super) fn plan(args: &PlanArgs) -> Result<ExitCode, Error> {
         return Err(Error::Usage(message.to_owned()));
     }
     let judge = Judge::new(&arena.scene);
-    let result = arena.result();
+    let result = arena.result(Subject::Paths);
     // It warms up first, as in the bench.
     let record = Seat::new(&entry, false).run(0, &arena, args.seed)?;
     let record = runner::judged(record, &judge, result.optimum.length);

@@ -7,17 +7,21 @@ use super::output::{self, Claim, Found};
 use super::session::{self, Place};
 use super::{FailOn, RunArgs, say, warn};
 use crate::campaign::Campaign;
-use crate::config::{Comparison, Disk, EMBEDDED_NAME, Embedded, External, Maker};
+use crate::config::{Comparison, Disk, EMBEDDED_NAME, Embedded, External, Maker, play_name};
 use crate::differences::{Signature, differences};
 use crate::error::Error;
 use crate::estimate::{self, Estimate};
-use crate::results::{Results, RunStatus};
+use crate::results::{Results, RunStatus, Subject};
 use crate::store::{Store, Stored};
 use crate::table;
 use crate::work::{Shard, Work};
 
 pub(super) fn run(args: &RunArgs) -> Result<ExitCode, Error> {
     let campaign = campaign(args)?;
+    if args.isolate && campaign.comparison.subject != Subject::Paths {
+        let message = "--isolate: what moves runs in the bench's own process; expected a comparison of paths";
+        return Err(Error::Usage(message.to_owned()));
+    }
     let mut work = Work { isolate: args.isolate, ..Work::all(usize::from(args.jobs)) };
     work.shard = args.shard.unwrap_or(Shard::WHOLE);
     let (folder, place) = if args.resume {
@@ -183,7 +187,19 @@ fn describe(campaign: &Campaign, work: &Work, folder: &Path) {
     }
     for arena in &campaign.arenas {
         let (name, count) = (&arena.scene.name, arena.scene.obstacles.len());
-        say(format!("  scene {name} ({count} obstacles; {} set)", arena.set.name()));
+        let what = match (&arena.simulation, &campaign.comparison.protocol) {
+            (Some(s), _) => format!(
+                "{} with {} robots and {} opponents, at most {} s at {} Hz",
+                play_name(s),
+                s.robots,
+                s.opponents,
+                s.duration_s,
+                s.frame_rate
+            ),
+            (None, Some(p)) => format!("{} scenarios a run, {} to tune on", p.held_out, p.training),
+            (None, None) => format!("{count} obstacles"),
+        };
+        say(format!("  scene {name} ({what}; {} set)", arena.set.name()));
     }
     say(format!("Would write to {}; nothing was run.", folder.display()));
 }

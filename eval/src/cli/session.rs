@@ -82,7 +82,9 @@ fn make(
         session.finished.clone_from(&manifest.finished);
     }
     // After the last timed run, so that no picture is taken at its expense.
-    store.add_snapshots(&replay::snapshots(campaign, &store.read()?.results.runs))?;
+    let runs = store.read()?.results.runs;
+    store.add_snapshots(&replay::snapshots(campaign, &runs))?;
+    store.add_traces(&replay::traces(campaign, &runs))?;
     store.finish(&manifest)
 }
 

@@ -93,8 +93,7 @@ pub struct Kept {
 impl Kept {
     /// The files of `stored`.
     pub fn new(stored: &Stored) -> Self {
-        let scenes = stored.scene_files.iter().zip(&stored.results.scenes);
-        let texts = scenes.map(|(file, scene)| (file.clone(), scene.scene.to_toml())).collect();
+        let texts = stored.still_scenes().map(|(file, scene)| (file.to_owned(), scene.to_toml())).collect();
         Self { texts }
     }
 }

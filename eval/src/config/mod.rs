@@ -22,12 +22,17 @@
 //! `{ rcg = "game.rcg.gz", cycles = [120, 480], side = "left" }` and
 //! `{ ssl-log = "game.log.gz", frames = [10], team = "blue", robot = 3 }`; and from grid maps, see
 //! [`env_model::import::movingai`]: `{ movingai = "arena.map.scen", buckets = [0, 3], count = 10 }`.
+//!
+//! With a table `[simulation]` scenes move, and planners drive teams: see `simulation.rs`. With a table `[behaviour]`
+//! planners are parameters of behaviour control, given or tuned: see `behaviour.rs`.
 
+mod behaviour;
 mod files;
 mod logs;
 mod movingai;
 mod planners;
 mod scenes;
+mod simulation;
 mod sweep;
 #[cfg(test)]
 mod tests;
@@ -36,17 +41,19 @@ use std::collections::BTreeMap;
 
 use env_model::source::Source;
 use env_model::{FileError, Scene};
+use planner_behaviour::Protocol;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::results::SceneSet;
+use crate::results::{SceneSet, Subject};
 use crate::store::Stored;
 
 pub use files::{Disk, EMBEDDED_NAME, Embedded, Files, Kept, Opened};
 pub use planners::{BudgetSpec, External, FOLDER, Factory, Limits, Maker, PlannerEntry, from_settings, single};
 pub use scenes::refuse_motion;
+pub use simulation::play_name;
 
 /// A comparison, resolved: scenes read or generated, planners built once, every setting known.
 pub struct Comparison {
@@ -56,6 +63,10 @@ pub struct Comparison {
     pub seed: u64,
     /// Runs per planner and scene, ≥ 1.
     pub repeats: u32,
+    /// What its runs are.
+    pub subject: Subject,
+    /// How parameters of behaviour control are judged, where they are.
+    pub protocol: Option<Protocol>,
     /// The scenes, names unique, those of the tuning set last.
     pub scenes: Vec<SceneEntry>,
     /// The planners in the file's order, labels unique.
@@ -71,6 +82,8 @@ pub struct SceneEntry {
     pub scene: Scene,
     /// What it is for.
     pub set: SceneSet,
+    /// What moves in it, where something does: `scene` then only stands for its field.
+    pub simulation: Option<strategy::Settings>,
 }
 
 /// The file's own keys. `scenes` and `planner` are read by hand for the sake of their places.
@@ -86,6 +99,8 @@ struct Head {
     #[expect(dead_code, reason = "here so that it is a known key")]
     budget: Option<IgnoredAny>,
     planner: Option<IgnoredAny>,
+    simulation: Option<Spanned<IgnoredAny>>,
+    behaviour: Option<Spanned<IgnoredAny>>,
 }
 
 impl Comparison {
@@ -94,7 +109,17 @@ impl Comparison {
         let source = Source { path, text };
         let mut table = source.parse_toml()?;
         let head: Head = from_table(&source, table.clone())?;
-        for (key, found) in [("scenes", head.scenes.is_some()), ("planner", head.planner.is_some())] {
+        let subject = match (&head.simulation, &head.behaviour) {
+            (Some(_), Some(behaviour)) => {
+                let message = "[behaviour] beside [simulation]; expected one of the two";
+                return Err(source.error_at(behaviour.span(), message));
+            }
+            (Some(_), None) => Subject::Simulation,
+            (None, Some(_)) => Subject::Behaviour,
+            (None, None) => Subject::Paths,
+        };
+        let scenes_said = head.scenes.is_some() || subject != Subject::Paths;
+        for (key, found) in [("scenes", scenes_said), ("planner", head.planner.is_some())] {
             if !found {
                 let expected =
                     if key == "scenes" { "scenes = [\"scene.toml\", …]" } else { "a table [planner.LABEL]" };
@@ -115,10 +140,21 @@ impl Comparison {
         })?;
         let entries = table.get_mut();
         let budget = entries.remove("budget");
-        let planners = planners::read(&source, entries.remove("planner"), budget, files.folder())?;
+        let planners = planners::read(&source, entries.remove("planner"), budget, files.folder(), subject)?;
         let sets = [(SceneSet::Test, entries.remove("scenes")), (SceneSet::Tuning, entries.remove("tuning"))];
-        let (scenes, notes) = scenes::read(&source, sets, files)?;
-        Ok(Self { name: name.clone(), seed, repeats, scenes, planners, notes })
+        let protocol = entries.remove("behaviour").map(|table| behaviour::protocol(&source, table)).transpose()?;
+        let (scenes, notes) = match (entries.remove("simulation"), &protocol) {
+            (Some(common), _) => (simulation::read(&source, common, sets)?, Vec::new()),
+            (None, Some(protocol)) => {
+                if let Some(scenes) = sets.into_iter().find_map(|(_, scenes)| scenes) {
+                    let message = "scenes beside [behaviour], which draws its own; expected none";
+                    return Err(source.error_at(scenes.span(), message));
+                }
+                (vec![behaviour::stand_in(protocol)], Vec::new())
+            }
+            (None, None) => scenes::read(&source, sets, files)?,
+        };
+        Ok(Self { name: name.clone(), seed, repeats, subject, protocol, scenes, planners, notes })
     }
 
     /// The comparison that a store keeps.
@@ -166,10 +202,21 @@ impl Comparison {
         let files = self.scene_files();
         for (set, key) in [(SceneSet::Test, "scenes"), (SceneSet::Tuning, "tuning")] {
             let of_set = self.scenes.iter().zip(&files).filter(|(entry, _)| entry.set == set);
-            let lines: Vec<String> = of_set.map(|(_, file)| format!("    {},\n", text(file))).collect();
-            if !lines.is_empty() {
+            let line = |(entry, file): (&SceneEntry, &String)| match &entry.simulation {
+                Some(settings) => format!("    {},\n", simulation::to_toml(&entry.scene.name, settings)),
+                None => format!("    {},\n", text(file)),
+            };
+            let lines: Vec<String> = of_set.map(line).collect();
+            if !lines.is_empty() && self.subject != Subject::Behaviour {
                 out.push_str(&format!("{key} = [\n{}]\n", lines.concat()));
             }
+        }
+        if self.subject == Subject::Simulation {
+            out.push_str("\n[simulation]\n");
+        }
+        if let Some(protocol) = &self.protocol {
+            out.push('\n');
+            out.push_str(&behaviour::to_toml(protocol));
         }
         for planner in &self.planners {
             out.push('\n');

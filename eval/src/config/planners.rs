@@ -7,13 +7,15 @@ use std::time::{Duration, Instant};
 use env_model::FileError;
 use env_model::source::{Key, Source, span_of};
 use planner_api::{Budget, Planner};
+use planner_behaviour::{Parameters, Tuning};
 use planner_catalogue::BuildError;
 use serde::{Deserialize, Serialize};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::sweep::{Variant, expand};
-use super::{from_table, table_of};
+use super::{behaviour, from_table, table_of};
+use crate::results::Subject;
 
 /// The key that names an external planner's folder; no part of a campaign's identity.
 pub const FOLDER: &str = "folder";
@@ -30,6 +32,12 @@ pub enum Maker {
     Catalogue(Factory),
     /// A command that speaks the worker protocol, in a process of its own.
     External(External),
+    /// A controller of the catalogue, one for each robot of a team.
+    Controller,
+    /// Given parameters of behaviour control.
+    Parameters(Parameters),
+    /// Parameters of behaviour control that are searched for.
+    Tuning(Tuning),
 }
 
 /// The command of an external planner.
@@ -128,11 +136,11 @@ impl BudgetSpec {
 }
 
 impl PlannerEntry {
-    /// An instance for one thread; `None` for an external planner.
+    /// An instance for one thread; `None` for anything but a planner of the catalogue.
     pub fn instance(&self) -> Option<Box<dyn Planner>> {
         match &self.maker {
             Maker::Catalogue(make) => Some(make()),
-            Maker::External(_) => None,
+            _ => None,
         }
     }
 
@@ -210,6 +218,7 @@ pub(super) fn read(
     value: Option<Spanned<DeValue<'_>>>,
     budget: Option<Spanned<DeValue<'_>>>,
     folder: &Path,
+    subject: Subject,
 ) -> Result<Vec<PlannerEntry>, FileError> {
     let common = budgets(source, budget, &[BudgetSpec::default()])?;
     let Some(value) = value else { return Ok(Vec::new()) };
@@ -228,7 +237,7 @@ pub(super) fn read(
             return Err(source.error_at(label.span(), message));
         }
         let table = table_of(source, value, "a table of settings")?;
-        for planner in variants(source, name, label.span(), table, &common, folder)? {
+        for planner in variants(source, name, label.span(), table, &common, (folder, subject))? {
             if planners.iter().any(|p| p.label == planner.label) {
                 let message = format!("a second planner labelled {:?}; expected different labels", planner.label);
                 return Err(source.error_at(label.span(), message));
@@ -279,7 +288,7 @@ fn variants(
     at: Range<usize>,
     table: Spanned<DeTable<'_>>,
     common: &[BudgetSpec],
-    folder: &Path,
+    context: (&Path, Subject),
 ) -> Result<Vec<PlannerEntry>, FileError> {
     let span = table.span();
     let mut keys = table.into_inner();
@@ -291,7 +300,7 @@ fn variants(
         for budget in &budgets {
             let several = (budgets.len() > 1).then(|| budget.words());
             let varied = names.iter().cloned().chain(several).collect::<Vec<_>>().join(", ");
-            let mut planner = entry(source, label, at.clone(), table.clone(), *budget, folder)?;
+            let mut planner = entry(source, label, at.clone(), table.clone(), *budget, context)?;
             if !varied.is_empty() {
                 planner.label = format!("{label}[{varied}]");
                 planner.varied = varied;
@@ -309,7 +318,7 @@ fn entry(
     at: Range<usize>,
     mut table: Spanned<DeTable<'_>>,
     budget: BudgetSpec,
-    folder: &Path,
+    (folder, subject): (&Path, Subject),
 ) -> Result<PlannerEntry, FileError> {
     let keys = table.get_mut();
     let (kind, kind_at) = match keys.remove("kind") {
@@ -322,6 +331,9 @@ fn entry(
             }
         },
     };
+    if subject != Subject::Paths {
+        refuse_processes(source, &kind, kind_at.clone(), keys)?;
+    }
     let limits = limits(source, keys)?;
     let (group, varied) = match keys.remove(VARIANT) {
         Some(value) => variant(source, value)?,
@@ -347,7 +359,23 @@ fn entry(
             source.error_at(command.span(), format!("a command for kind {kind:?}; expected kind = \"external\""))
         );
     }
+    if subject == Subject::Behaviour {
+        let (maker, settings) = behaviour::planner(source, &kind, kind_at, table)?;
+        return Ok(PlannerEntry { label, group, varied, kind, settings, budget, limits, maker });
+    }
     let places = table.clone();
+    if subject == Subject::Simulation {
+        let built =
+            planner_catalogue::build_controller(&kind, table).map_err(|e| located(source, kind_at, &places, &e))?;
+        let (settings, maker) = (built.settings, Maker::Controller);
+        return Ok(PlannerEntry { label, group, varied, kind, settings, budget, limits, maker });
+    }
+    if planner_catalogue::controllers().iter().any(|k| k.name == kind) {
+        let message = format!(
+            "{kind:?} moves a robot among what moves, and plans no path; expected a planner, or a table [simulation]"
+        );
+        return Err(source.error_at(kind_at, message));
+    }
     let built = planner_catalogue::build(&kind, table).map_err(|e| located(source, kind_at, &places, &e))?;
     let settings = built.settings;
     let text = settings.to_string();
@@ -374,6 +402,24 @@ fn variant(source: &Source<'_>, value: Spanned<DeValue<'_>>) -> Result<(String, 
     match (of, by) {
         (Some(of), Some(by)) if table.is_empty() => Ok((of, by)),
         _ => Err(source.error_at(span, format!("expected {EXPECTED}"))),
+    }
+}
+
+/// What moves is driven in the bench's own process.
+fn refuse_processes(
+    source: &Source<'_>,
+    kind: &str,
+    kind_at: Range<usize>,
+    keys: &DeTable<'_>,
+) -> Result<(), FileError> {
+    let expected =
+        "expected a planner of the catalogue without limits of a process, for what moves runs in the bench's";
+    if kind == "external" {
+        return Err(source.error_at(kind_at, format!("an external planner; {expected}")));
+    }
+    match ["command", "hard_limit_ms", "memory_mb"].iter().find_map(|key| keys.get_key_value(*key)) {
+        Some((key, _)) => Err(source.error_at(key.span(), format!("{}: {expected}", key.get_ref()))),
+        None => Ok(()),
     }
 }
 
@@ -450,5 +496,5 @@ pub fn single(path: &str, kind: &str, settings: &str) -> Result<PlannerEntry, Fi
     let [budget] = budgets.as_slice() else {
         return Err(source.error_at(0..0, "several budgets; expected one"));
     };
-    entry(&source, kind, 0..0, table, *budget, Path::new("."))
+    entry(&source, kind, 0..0, table, *budget, (Path::new("."), Subject::Paths))
 }

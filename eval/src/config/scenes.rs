@@ -99,7 +99,7 @@ fn read_set(
                 );
                 return Err(source.error_at(span, message));
             }
-            scenes.push(SceneEntry { scene, set });
+            scenes.push(SceneEntry { scene, set, simulation: None });
         }
     }
     Ok(())

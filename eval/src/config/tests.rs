@@ -389,7 +389,7 @@ fn the_folder_of_an_external_planner_is_said_but_no_part_of_identity() {
     };
     let folder = |c: &Comparison| match &c.planners[0].maker {
         Maker::External(external) => external.folder.clone(),
-        Maker::Catalogue(_) => unreachable!("it is external"),
+        _ => unreachable!("it is external"),
     };
     let [usual, own, far] = ["", "folder = \"own\"", "folder = \"/far\""].map(|keys| read(keys).unwrap());
     let here = std::env::current_dir().unwrap();
@@ -411,4 +411,96 @@ fn tuning_scenes_stay_apart() {
     assert!(c.to_toml().contains("tuning = [\n    \"scenes/wall-s1-00.toml\","), "{}", c.to_toml());
     let error = read("scenes = [\"a.toml\"]\ntuning = [\"b.toml\"]").err().unwrap().to_string();
     assert!(error.contains("\"b\" of the tuning set is \"a\" of the test set under another name"), "{error}");
+}
+
+const MOVING: &str = r#"name = "moving"
+scenes = [{ play = "circle-swap" }, { play = "crossing", opponents = 3, name = "busy" }]
+[simulation]
+robots = 4
+swap = [{ at_s = 1.0, planner = "tangent" }]
+[planner.straight-line]
+budget = { time_ms = 2.0 }
+[planner.swarm]
+kind = "pso"
+particles = { sweep = [5, 10] }
+"#;
+
+#[test]
+fn moving_scenes_take_common_keys_and_names() {
+    let c = read(MOVING).unwrap();
+    assert_eq!(c.subject, Subject::Simulation);
+    let scene = |i: usize| (c.scenes[i].scene.name.as_str(), c.scenes[i].simulation.clone().unwrap());
+    let ((first, a), (second, b)) = (scene(0), scene(1));
+    assert_eq!((first, a.robots, a.opponents, second, b.robots, b.opponents), ("circle-swap-4", 4, 0, "busy", 4, 3));
+    assert_eq!(a.swap[0].planner, "tangent");
+    let labels: Vec<_> = c.planners.iter().map(|p| p.label.as_str()).collect();
+    assert_eq!(labels, ["straight-line", "swarm[particles=5]", "swarm[particles=10]"]);
+    let again =
+        Comparison::from_toml("again", &c.to_toml(), &Memory).unwrap_or_else(|e| panic!("{e}\n{}", c.to_toml()));
+    assert_eq!((again.to_toml(), &again.scenes), (c.to_toml(), &c.scenes));
+    let alone = "name = \"x\"\n[simulation]\nplay = \"crossing\"\nopponents = 2\n[planner.tangent]";
+    assert_eq!(read(alone).unwrap().scenes[0].scene.name, "crossing-8v2");
+}
+
+#[test]
+fn mistakes_in_moving_scenes_are_named_with_their_place() {
+    let cases = [
+        (
+            "{ play = \"circle-swap\" }",
+            "{ play = \"circle\" }",
+            "c.toml:2:21: unknown variant `circle`, expected one of",
+        ),
+        ("{ play = \"circle-swap\" }", "{}", "c.toml:2:11: a scene without play; expected a moving scene such as"),
+        ("{ play = \"circle-swap\" }", "\"a.toml\"", "c.toml:2:11: found string; expected a moving scene such as"),
+        ("opponents = 3", "opponents = 30", "c.toml:2:70: opponents = 30; expected 0 to 16"),
+        ("opponents = 3", "oponents = 3", "c.toml:2:58: unknown field `oponents`"),
+        ("\"busy\"", "\"../x\"", "c.toml:2:80: name: expected text of letters"),
+        ("\"busy\"", "\"circle-swap-4\"", "c.toml:2:37: a second scene named \"circle-swap-4\""),
+        ("robots = 4", "robots = 0", "c.toml:4:10: robots = 0; expected 1 to 16"),
+        ("at_s = 1.0", "at_s = -1.0", "c.toml:5:8: swap.at_s = -1"),
+        ("planner = \"tangent\"", "planner = \"tangents\"", "c.toml:5:32: planner \"tangents\": unknown planner"),
+        ("[planner.straight-line]", "[planner.straight]", "c.toml:6:10: unknown planner \"straight\"; expected one of"),
+        (
+            "time_ms = 2.0 }",
+            "time_ms = 2.0 }\nmemory_mb = 5",
+            "c.toml:8:1: memory_mb: expected a planner of the catalogue",
+        ),
+        (
+            "kind = \"pso\"",
+            "kind = \"external\"",
+            "c.toml:9:8: an external planner; expected a planner of the catalogue",
+        ),
+        ("particles = {", "particle = {", "unknown field `particle`"),
+    ];
+    for (from, to, expected) in cases {
+        assert!(MOVING.contains(from), "{from}");
+        let error = read(&MOVING.replacen(from, to, 1)).err().unwrap_or_default();
+        assert!(error.contains(expected), "{to}:\n{error}\nexpected: {expected}");
+    }
+    let still = GOOD.replace("[planner.tangent]", "[planner.behaviour]");
+    let error = read(&still).err().unwrap();
+    assert!(error.contains("c.toml:7:10: \"behaviour\" moves a robot among what moves, and plans no path"), "{error}");
+}
+
+#[test]
+fn mistakes_in_behaviour_are_named_with_their_place() {
+    let good =
+        "name = \"b\"\n[behaviour]\nrobots = 3\n[planner.tuned]\nkind = \"behaviour\"\ntune = { population = 5 }\n";
+    let c = read(good).unwrap();
+    assert_eq!((c.subject, c.protocol.as_ref().unwrap().robots), (Subject::Behaviour, 3));
+    assert_eq!(Comparison::from_toml("again", &c.to_toml(), &Memory).unwrap().to_toml(), c.to_toml());
+    let cases = [
+        ("robots = 3", "robots = 30", "c.toml:3:10: robots = 30; expected 1 to 16"),
+        ("robots = 3", "robot = 3", "c.toml:3:1: unknown field `robot`"),
+        ("kind = \"behaviour\"", "kind = \"orca\"", "c.toml:5:8: planner \"orca\" beside a table [behaviour]"),
+        ("population = 5", "population = 1", "c.toml:6:23: population = 1; expected 2 to 1000"),
+        ("tune =", "tunes =", "c.toml:6:1: unknown field `tunes`"),
+        ("tune = {", "parameters = {}\ntune = {", "c.toml:6:14: parameters beside tune"),
+        ("[behaviour]", "scenes = [\"a.toml\"]\n[behaviour]", "c.toml:2:10: scenes beside [behaviour]"),
+        ("[behaviour]", "[simulation]\n[behaviour]", "c.toml:3:1: [behaviour] beside [simulation]"),
+    ];
+    for (from, to, expected) in cases {
+        let error = read(&good.replacen(from, to, 1)).err().unwrap_or_default();
+        assert!(error.contains(expected), "{to}:\n{error}\nexpected: {expected}");
+    }
 }

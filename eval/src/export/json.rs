@@ -72,11 +72,15 @@ pub fn results_json(results: &Results) -> String {
     };
     let scene = |s: &SceneResult| {
         let Optimum { length, path, reason } = &s.optimum;
-        json!({
+        let mut scene = json!({
             "set": s.set,
             "scene": s.scene,
             "optimum": { "length": length, "path": json::points(path), "reason": reason },
-        })
+        });
+        if let Some(settings) = &s.simulation {
+            scene["simulation"] = json!(settings);
+        }
+        scene
     };
     let run = |r: &RunRecord| {
         let mut run = json::run(r);
@@ -86,14 +90,17 @@ pub fn results_json(results: &Results) -> String {
             ("overhead_us".to_owned(), json!(r.overhead_us)),
             ("terms".to_owned(), json!(r.terms)),
         ]);
+        run.extend(r.moving.as_ref().map(|moving| ("moving".to_owned(), json!(moving))));
+        run.extend(r.tuning.as_ref().map(|tuning| ("tuning".to_owned(), json!(tuning))));
         run
     };
-    let whole = json!({
+    let mut whole = json!({
         "$schema": "results.schema.json",
         "format": 1,
         "name": results.name,
         "seed": results.seed,
         "repeats": results.repeats,
+        "subject": results.subject,
         "seed_formula": seeds::FORMULA,
         "metrics_version": crate::metrics::VERSION,
         "manifest": results.manifest,
@@ -101,6 +108,11 @@ pub fn results_json(results: &Results) -> String {
         "scenes": results.scenes.iter().map(scene).collect::<Vec<_>>(),
         "runs": results.runs.iter().map(run).collect::<Vec<_>>(),
     });
+    if let Ok(protocol) = results.protocol.parse::<toml::Table>()
+        && !protocol.is_empty()
+    {
+        whole["protocol"] = json::from_toml(&toml::Value::Table(protocol));
+    }
     whole.to_string() + "\n"
 }
 

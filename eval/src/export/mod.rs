@@ -3,6 +3,7 @@
 mod csv;
 mod ioh;
 mod json;
+mod moving;
 mod ompl;
 
 use std::fs;
@@ -10,19 +11,21 @@ use std::path::Path;
 
 use crate::error::Error;
 use crate::report::{self, Language};
+use crate::results::Subject;
 use crate::store::Stored;
 
 pub use csv::{RUN_COLUMNS, SUMMARY_COLUMNS, runs_csv, summaries, summary_csv};
 pub use json::{manifest_json, paths_jsonl, results_json};
+pub use moving::{parameters_csv, simulation_columns, simulations_csv, traces_jsonl, tuning_csv};
 
 /// What to export.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Formats {
     /// `report.html`.
     pub html: bool,
-    /// `runs.csv` and `summary.csv`.
+    /// `runs.csv` and `summary.csv`; of moving scenes `simulations.csv`, of behaviour `tuning.csv` and `parameters.csv`.
     pub csv: bool,
-    /// `paths.jsonl` and `manifest.json`.
+    /// `paths.jsonl` and `manifest.json`; of moving scenes `traces.jsonl`.
     pub json: bool,
     /// `results.json` with its schema: the same and everything else in one document.
     pub document: bool,
@@ -54,7 +57,12 @@ fn put(path: &Path, text: &str) -> Result<(), Error> {
 /// all others.
 pub fn are_made(folder: &Path, stored: &Stored) -> bool {
     let files = ["runs.csv", "summary.csv", "paths.jsonl", "comparison.toml", "report.html"];
-    let scenes = stored.scene_files.iter().map(String::as_str);
+    let more: &[&str] = match stored.results.subject {
+        Subject::Paths => &[],
+        Subject::Simulation => &["simulations.csv", "traces.jsonl"],
+        Subject::Behaviour => &["tuning.csv", "parameters.csv"],
+    };
+    let scenes = more.iter().copied().chain(stored.still_scenes().map(|(file, _)| file));
     let manifest = fs::read_to_string(folder.join("manifest.json"));
     manifest.is_ok_and(|text| text == manifest_json(&stored.results))
         && files.into_iter().chain(scenes).all(|file| folder.join(file).is_file())
@@ -71,9 +79,20 @@ pub fn write(folder: &Path, stored: &Stored, formats: Formats, language: Languag
     if formats.csv {
         put("runs.csv", &runs_csv(results))?;
         put("summary.csv", &summary_csv(results))?;
+        match results.subject {
+            Subject::Paths => {}
+            Subject::Simulation => put("simulations.csv", &simulations_csv(results))?,
+            Subject::Behaviour => {
+                put("tuning.csv", &tuning_csv(results))?;
+                put("parameters.csv", &parameters_csv(results))?;
+            }
+        }
     }
     if formats.json {
         put("paths.jsonl", &paths_jsonl(results))?;
+        if results.subject == Subject::Simulation {
+            put("traces.jsonl", &traces_jsonl(results))?;
+        }
     }
     if formats.document {
         put("results.json", &results_json(results))?;
@@ -89,9 +108,9 @@ pub fn write(folder: &Path, stored: &Stored, formats: Formats, language: Languag
         }
     }
     if formats.toml {
-        create("scenes")?;
-        for (file, scene) in stored.scene_files.iter().zip(&results.scenes) {
-            put(file, &scene.scene.to_toml())?;
+        for (file, scene) in stored.still_scenes() {
+            create("scenes")?;
+            put(file, &scene.to_toml())?;
         }
         put("comparison.toml", &stored.comparison)?;
     }

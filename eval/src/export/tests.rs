@@ -128,6 +128,16 @@ fn snapshots_are_kept_and_the_first_version_is_still_read() {
     let refusal = Store::open(&folder).unwrap().read().err().unwrap().to_string();
     assert!(refusal.contains("runs.db: a snapshot: of climber in"), "{refusal}");
 
+    // What version 3 had not is taken away.
+    db.execute_batch(
+        "DELETE FROM snapshot WHERE position = 99; DROP TABLE trace;
+             ALTER TABLE run DROP COLUMN moving; ALTER TABLE run DROP COLUMN tuning;
+             ALTER TABLE scene DROP COLUMN simulation; ALTER TABLE campaign DROP COLUMN subject;
+             ALTER TABLE campaign DROP COLUMN protocol; UPDATE campaign SET schema = 3;",
+    )
+    .unwrap();
+    assert_eq!(Store::open(&folder).unwrap().read().unwrap().results, results);
+
     // What version 1 had not is taken away.
     db.execute_batch(
         "DROP TABLE snapshot; ALTER TABLE run DROP COLUMN cost; ALTER TABLE run DROP COLUMN terms;
@@ -139,9 +149,9 @@ fn snapshots_are_kept_and_the_first_version_is_still_read() {
         (run.cost, run.terms) = (None, Vec::new());
     }
     assert_eq!(Store::open(&folder).unwrap().read().unwrap().results, results);
-    db.execute_batch("UPDATE campaign SET schema = 4").unwrap();
+    db.execute_batch("UPDATE campaign SET schema = 5").unwrap();
     let refusal = Store::open(&folder).err().unwrap().to_string();
-    assert!(refusal.contains("schema version 4; this program reads versions 1 to 3"), "{refusal}");
+    assert!(refusal.contains("schema version 5; this program reads versions 1 to 4"), "{refusal}");
     drop(db);
     fs::remove_dir_all(&folder).unwrap();
 }

@@ -2,7 +2,7 @@
 
 use super::language::Strings;
 use crate::analysis::pairs::Pairs;
-use crate::analysis::{Curves, Effort, Grid, Measure, counted_length, quality};
+use crate::analysis::{Curves, Effort, Grid, Measure, counted_gap, counted_length, quality};
 use crate::results::{Results, RunRecord};
 use crate::statistics::median;
 use crate::statistics::median_interval::{MedianInterval, median_interval};
@@ -85,7 +85,7 @@ impl<'a> Evidence<'a> {
     pub fn quality_of(&self, planner: usize, scenes: &[usize]) -> Option<Typical> {
         let one = self.grid.scenes.len() == 1;
         self.typical(planner, scenes, &|r, s| match self.quality.measure {
-            Measure::Gap => (counted_length(r) / self.references[s] - 1.0).max(0.0),
+            Measure::Gap => counted_gap(r, self.references[s]),
             _ if one => counted_length(r),
             _ => counted_length(r) / self.references[s],
         })

@@ -11,13 +11,14 @@ mod write;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+use env_model::Scene;
 use rusqlite::{Connection, ErrorCode, OpenFlags, OptionalExtension};
 use serde::{Deserialize, Serialize};
 
 use crate::campaign::Campaign;
 use crate::config::BudgetSpec;
 use crate::error::Error;
-use crate::results::{Manifest, MovingTrace, Results, RunRecord, RunStatus};
+use crate::results::{Manifest, MovingTrace, Results, RunRecord, RunStatus, Subject};
 use crate::shell::quoted;
 use crate::snapshot::Snapshot;
 use read::Read;
@@ -110,6 +111,15 @@ pub struct Stored {
     pub scene_files: Vec<String>,
     /// How long each scene took to compile, µs, in that order too.
     pub compile_us: Vec<f64>,
+}
+
+impl Stored {
+    /// Scenes that are files beside the comparison, with those: none where scenes are settings.
+    pub fn still_scenes(&self) -> impl Iterator<Item = (&str, &Scene)> {
+        let all = self.scene_files.iter().zip(&self.results.scenes);
+        let still = self.results.subject == Subject::Paths;
+        all.filter(move |_| still).map(|(file, result)| (file.as_str(), &result.scene))
+    }
 }
 
 /// How many runs of one planner in one scene ended in one way.

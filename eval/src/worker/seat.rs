@@ -98,8 +98,8 @@ impl<'c> Seat<'c> {
 
     fn is_warm(&self, scene: usize) -> bool {
         match self.entry.maker {
-            Maker::Catalogue(_) => self.warm == Some(scene),
             Maker::External(_) => self.warm.is_some(),
+            _ => self.warm == Some(scene),
         }
     }
 
@@ -194,9 +194,7 @@ fn begin(entry: &PlannerEntry) -> Result<Process, Trouble> {
             let (program, arguments) = external.command.split_first().expect("checked when it was read");
             Process::start(program, arguments, &external.folder)
         }
-        Maker::Catalogue(_) => {
-            tether::own_program().and_then(|own| Process::start(own, &[OsString::from("worker")], Path::new(".")))
-        }
+        _ => tether::own_program().and_then(|own| Process::start(own, &[OsString::from("worker")], Path::new("."))),
     };
     process.map_err(|e| match tether::is_shortage(&e) {
         true => Trouble::Bench(e),
@@ -211,7 +209,7 @@ fn begin(entry: &PlannerEntry) -> Result<Process, Trouble> {
 fn command(entry: &PlannerEntry) -> String {
     match &entry.maker {
         Maker::External(external) => format!("{:?} in {}", external.command, external.folder.display()),
-        Maker::Catalogue(_) => "touchline worker".to_owned(),
+        _ => "touchline worker".to_owned(),
     }
 }
 

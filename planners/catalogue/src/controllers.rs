@@ -1,7 +1,13 @@
 //! The list of controllers: what moves a robot among obstacles that move.
 
 use planner_api::Controller;
+use planner_behaviour::Behaviour;
 use planner_control::Replan;
+use planner_dynamic_window::DynamicWindow;
+use planner_orca::Orca;
+use planner_potential_field::MovingPotentialField;
+use planner_sampled_bang_bang::SampledBangBang;
+use planner_space_time::Sipp;
 use toml::de::DeTable;
 use toml::{Spanned, Table};
 
@@ -33,7 +39,46 @@ pub struct BuiltController {
 
 /// The controllers that are no planners, in the order of the documentation.
 pub fn controllers() -> &'static [ControllerKind] {
-    const KINDS: &[ControllerKind] = &[];
+    const KINDS: &[ControllerKind] = &[
+        ControllerKind {
+            name: "behaviour",
+            summary: "The weighted sum of simple behaviours: to the goal, away from obstacles and robots, into formation",
+            source: "Fang 2009, chapter 5; Balch & Arkin 1998",
+            make: |settings| plain(settings, Behaviour::new),
+        },
+        ControllerKind {
+            name: "orca",
+            summary: "Of the velocities that leave each mate half of the evasion and take all of it from opponents, the \
+                      one nearest to the goal's",
+            source: "van den Berg, Guy, Lin & Manocha 2011",
+            make: |settings| plain(settings, Orca::new),
+        },
+        ControllerKind {
+            name: "dynamic-window",
+            summary: "Of the velocities in short reach from which one can brake before contact, the one of best heading, \
+                      clearance and speed",
+            source: "Fox, Burgard & Thrun 1997",
+            make: |settings| plain(settings, DynamicWindow::new),
+        },
+        ControllerKind {
+            name: "moving-potential-field",
+            summary: "The force of a potential in which obstacles repel by how near they are and how fast they approach",
+            source: "Ge & Cui 2002",
+            make: |settings| plain(settings, MovingPotentialField::new),
+        },
+        ControllerKind {
+            name: "bang-bang",
+            summary: "The best of many bang-bang trajectories by way of intermediate destinations, checked in time",
+            source: "practice of TIGERs Mannheim and ER-Force in the Small Size League",
+            make: |settings| plain(settings, SampledBangBang::new),
+        },
+        ControllerKind {
+            name: "sipp",
+            summary: "A* over grid cells and the times at which they are safe, then legs within the robot's limits",
+            source: "Phillips & Likhachev 2011, ICRA, 5628-5635",
+            make: |settings| plain(settings, Sipp::new),
+        },
+    ];
     KINDS
 }
 
@@ -68,7 +113,6 @@ pub fn build_controller_str(kind: &str, settings: &str) -> Result<BuiltControlle
 }
 
 /// The controller that `new` makes of validated settings, and those settings.
-#[allow(dead_code)]
 fn plain<S, C>(
     settings: Settings<'_>,
     new: impl FnOnce(S) -> Result<C, planner_api::SettingError>,

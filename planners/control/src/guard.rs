@@ -1,10 +1,10 @@
 //! Always a safe answer: escape, the nearest free goal, or the brakes; and when the first collision is due.
 
 use env_model::Point;
-use env_model::motion::{Contact, State, Trajectory, bang_bang, brake, first_contact};
+use env_model::motion::{Contact, Trajectory, bang_bang, brake, first_contact};
 use planner_api::{ControlError, Controller, Outcome, Run, Situation};
 
-use crate::nearest_free;
+use crate::{nearest_free, stop_in_time};
 
 /// What kind of answer it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,7 +57,7 @@ impl Default for Answer {
 /// computed from the trajectory.
 pub struct Guard {
     controller: Box<dyn Controller>,
-    /// Whether a collision that is due before the robot could stop is answered with the brakes.
+    /// Whether it brakes while it still can stop in time.
     emergency_brake: bool,
 }
 
@@ -67,8 +67,7 @@ impl Guard {
         Self { controller, emergency_brake: false }
     }
 
-    /// Whether to brake where a collision is due within the time that it takes to stop and one period, and braking
-    /// meets it later or not at all.
+    /// Whether to brake where the robot could no longer stop in time one period later: see [`stop_in_time`].
     #[must_use]
     pub fn with_emergency_brake(self, emergency_brake: bool) -> Self {
         Self { emergency_brake, ..self }
@@ -97,8 +96,8 @@ impl Guard {
             brake(state, limits, &mut answer.trajectory);
         }
         answer.contact = first_contact(&answer.trajectory, world, movers, horizon);
-        if self.emergency_brake && !matches!(answer.safety, Safety::Brake | Safety::Escape) {
-            self.reconsider(situation, answer);
+        if self.emergency_brake {
+            stop_in_time(situation, answer);
         }
         result
     }
@@ -133,21 +132,5 @@ impl Guard {
             Outcome::Arrives => Safety::Ok,
         };
         Ok(())
-    }
-
-    /// Brakes where that puts off a collision which is due before the robot could stop.
-    fn reconsider(&self, situation: &Situation<'_>, answer: &mut Answer) {
-        let Situation { world, movers, state, limits, horizon, period, .. } = *situation;
-        let Some(contact) = answer.contact else { return };
-        let next: State = answer.trajectory.state(period);
-        if contact.time > period + next.velocity.norm() / limits.acceleration {
-            return;
-        }
-        let mut stop = Trajectory::default();
-        brake(state, limits, &mut stop);
-        let then = first_contact(&stop, world, movers, horizon);
-        if then.is_none_or(|c| c.time > contact.time) {
-            (answer.trajectory, answer.contact, answer.safety) = (stop, then, Safety::Brake);
-        }
     }
 }

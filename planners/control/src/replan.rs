@@ -2,7 +2,7 @@
 //!
 //! The baseline of every comparison among moving obstacles, and how a planner of static scenes drives a robot.
 
-use env_model::motion::{Trajectory, follow};
+use env_model::motion::{Follower, Trajectory};
 use env_model::{Inflated, World};
 use planner_api::{ControlError, Controller, Outcome, Plan, Planner, Problem, Run, Situation, Status};
 
@@ -10,12 +10,13 @@ use planner_api::{ControlError, Controller, Outcome, Plan, Planner, Problem, Run
 pub struct Replan {
     planner: Box<dyn Planner>,
     plan: Plan,
+    follower: Follower,
 }
 
 impl Replan {
     /// Has `planner` plan every frame.
     pub fn new(planner: Box<dyn Planner>) -> Self {
-        Self { planner, plan: Plan::new() }
+        Self { planner, plan: Plan::new(), follower: Follower::default() }
     }
 
     /// The path of the last frame, empty where none was found.
@@ -62,7 +63,7 @@ impl Controller for Replan {
         if !found || self.plan.path.len() < 2 {
             return Ok(Outcome::NotFound);
         }
-        follow(&self.plan.path, state, limits, &world, trajectory);
+        self.follower.follow(&self.plan.path, state, limits, &world, trajectory);
         Ok(Outcome::Arrives)
     }
 

@@ -19,6 +19,8 @@
 //!   goal. Ge & Cui's potential mends this and no more: [`Repulsion::GeCui`].
 //! - **Oscillation** in narrow passages, where a step overshoots the valley.
 //!
+//! Among obstacles that move it is another field: [`moving`].
+//!
 //! Sources: O. Khatib, *Real-time obstacle avoidance for manipulators and mobile
 //! robots*, IJRR 5(1):90–98, 1986, DOI 10.1177/027836498600500106 (FIRAS potential);
 //! J.-C. Latombe, *Robot Motion Planning*, 1991, ch. 7 (steps of fixed length; the
@@ -29,9 +31,11 @@
 mod clearance;
 mod descent;
 mod field;
+pub mod moving;
 mod settings;
 
 pub use clearance::{Clearance, clearance};
 pub use descent::PotentialField;
 pub use field::Field;
+pub use moving::{MovingPotentialField, MovingPotentialFieldSettings};
 pub use settings::{PotentialFieldSettings, Repulsion};

@@ -1,0 +1,127 @@
+//! Whether a motion is free as far as one can see, and whether the robot could still stop on it.
+//!
+//! Contact is exact: with what stands still on the whole way, with movers until the horizon, grown by their margins. A
+//! robot that is nearer to a mover than its margin keeps what distance it has.
+//!
+//! A motion *can be stopped* if after its first period, the one that is followed for certain, the robot can brake
+//! straight on without touching anything until it stands: nothing that stands still, and no mover, whether that goes
+//! on or, where its trajectory is known, brakes after the period as well. If all robots of a team move so, planning one
+//! after the other, each seeing the new trajectories of those before it and the braking of those after it, then
+//! braking is always free and nobody is ever hit, by induction over the frames (passive motion safety; Macek,
+//! Vasquez Govea, Fraichard & Siegwart 2009).
+
+use env_model::World;
+use env_model::motion::contact::{enters_world, meets};
+use env_model::motion::{Limits, Mover, Path, Piece, Trajectory, brake};
+use planner_api::Situation;
+
+/// How much of the distance that is left to a mover is kept where it is less than the margin: rounding must not count.
+const KEPT: f64 = 1.0 - 1e-6;
+
+/// What is kept off movers when braking, in their radii: a safe stop needs no margin but for rounding.
+const DISTANCE: f64 = 1e-3;
+
+/// What one robot needs to know of a moment to judge many motions. Its buffers are reused.
+#[derive(Debug, Default)]
+pub struct Foresight {
+    /// The margin of each mover that can be kept.
+    margins: Vec<f64>,
+    /// Movers, those that were touched last first: they are most likely to be touched again.
+    order: Vec<usize>,
+    /// How each mover with a trajectory would brake after a period.
+    stops: Vec<Trajectory>,
+    stop: Trajectory,
+    leg: Trajectory,
+}
+
+impl Foresight {
+    /// Looks at a new moment.
+    pub fn begin(&mut self, situation: &Situation<'_>) {
+        let Situation { movers, state, limits, period, .. } = *situation;
+        self.margins.clear();
+        self.margins.extend(movers.iter().map(|mover| {
+            let room = mover.shape.point_clearance(state.position) * KEPT;
+            mover.margin.min(room).max(0.0)
+        }));
+        if self.order.len() != movers.len() {
+            self.order.clear();
+            self.order.extend(0..movers.len());
+        }
+        self.stops.resize_with(movers.len().max(self.stops.len()), Trajectory::default);
+        for (mover, stop) in movers.iter().zip(&mut self.stops) {
+            if let Path::Trajectory(trajectory) = mover.path {
+                stop_after(trajectory, period, limits, &mut self.leg, stop);
+            }
+        }
+    }
+
+    /// When `trajectory` first touches something, in seconds; +∞ where it is free. As soon as it is known to be no
+    /// later than `bar`, any such time.
+    pub fn contact(&mut self, situation: &Situation<'_>, trajectory: &Trajectory, bar: f64) -> f64 {
+        let Situation { world, movers, horizon, .. } = *situation;
+        let mut first = world_contact(trajectory, world);
+        for k in 0..self.order.len() {
+            if first <= bar {
+                break;
+            }
+            let i = self.order[k];
+            if let Some(t) = meets(trajectory, &movers[i], self.margins[i], horizon.min(first)) {
+                first = first.min(t);
+                self.order[..=k].rotate_right(1);
+            }
+        }
+        first
+    }
+
+    /// Whether the robot could stop after the first period of `trajectory`.
+    pub fn can_stop(&mut self, situation: &Situation<'_>, trajectory: &Trajectory) -> bool {
+        let Situation { world, movers, limits, period, .. } = *situation;
+        let mut stop = std::mem::take(&mut self.stop);
+        stop_after(trajectory, period, limits, &mut self.leg, &mut stop);
+        let free = world_contact(&stop, world).is_infinite()
+            && movers.iter().enumerate().all(|(i, mover)| self.avoids(i, mover, &stop));
+        self.stop = stop;
+        free
+    }
+
+    fn avoids(&self, i: usize, mover: &Mover<'_>, stop: &Trajectory) -> bool {
+        let margin = self.margins[i].min(mover.shape.radius * DISTANCE);
+        match mover.path {
+            // Once the robot stands, it is not the one who hits.
+            Path::Velocity(_) => meets(stop, mover, margin, stop.duration()).is_none(),
+            Path::Trajectory(_) => {
+                let theirs = &self.stops[i];
+                let braking = Mover { path: Path::Trajectory(theirs), ..mover.clone() };
+                meets(stop, &braking, margin, stop.duration().max(theirs.duration())).is_none()
+            }
+        }
+    }
+}
+
+/// `trajectory` for `period`, then the brakes.
+fn stop_after(trajectory: &Trajectory, period: f64, limits: Limits, leg: &mut Trajectory, out: &mut Trajectory) {
+    out.begin(trajectory.start());
+    out.append(trajectory, period);
+    out.push(period - out.duration(), env_model::Vector::zeros());
+    brake(trajectory.state(period), limits, leg);
+    out.append(leg, f64::INFINITY);
+}
+
+/// When it first touches what stands still.
+fn world_contact(trajectory: &Trajectory, world: &World) -> f64 {
+    let mut begin = 0.0;
+    for piece in trajectory.pieces() {
+        if let Some((t, _)) = enters_world(piece, world) {
+            return begin + t;
+        }
+        begin += piece.duration;
+    }
+    // A motion without pieces stands where it is.
+    let rest = Piece {
+        duration: 0.0,
+        position: trajectory.end().position,
+        velocity: trajectory.end().velocity,
+        acceleration: env_model::Vector::zeros(),
+    };
+    if enters_world(&rest, world).is_some() { begin } else { f64::INFINITY }
+}
