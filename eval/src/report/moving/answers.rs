@@ -69,7 +69,7 @@ pub fn answers(evidence: &Evidence<'_>, by_planner: &[ByScene<'_>], size: String
         let detail = t.fill("answer_quickest_detail", &[("ratio", &times(quickest.ratio))]);
         rows.push(line("answer_quickest", &[quickest.planner], detail, "#overall-table"));
     }
-    if let Some(least) = mostly().min_by(|a, b| a.frame_us.total_cmp(&b.frame_us)) {
+    if let Some(least) = mostly().filter(|f| f.frame_us.is_finite()).min_by(|a, b| a.frame_us.total_cmp(&b.frame_us)) {
         let detail = t.fill("answer_cheapest_detail", &[("time", &format::time(least.frame_us))]);
         rows.push(line("answer_cheapest", &[least.planner], detail, "#compute"));
     }
