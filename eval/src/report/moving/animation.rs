@@ -71,6 +71,7 @@ pub fn figure(clip: &Clip<'_>, stage: &Stage, t: &Strings) -> Option<Value> {
     let discs: String = last
         .iter()
         .enumerate()
+        .filter(|(_, p)| p.iter().all(|v| v.is_finite()))
         .map(|(body, p)| {
             let number = own.iter().position(|b| *b == body);
             disc(clip.trace, body, number, stage.at(*p), radius(body), &mut labels)
@@ -105,6 +106,9 @@ fn data(trace: &Trace, stage: &Stage) -> String {
 /// The way of one body: of an own robot (`number`) in its colour, of others thin and grey.
 fn way(trace: &Trace, stage: &Stage, body: usize, number: Option<usize>) -> String {
     let places: Vec<Point> = trace.frames.iter().filter_map(|f| f.get(body)).map(|p| Point::new(p[0], p[1])).collect();
+    if !places.iter().any(|p| p.x.is_finite() && p.y.is_finite()) {
+        return String::new();
+    }
     let Some(k) = number else {
         return format!(r#"<path class="trail other" d="{}"/>"#, polyline(&stage.camera, &places));
     };
