@@ -47,17 +47,11 @@ impl<'a> Curves<'a> {
 
 /// The figure with its table; `None` where nothing was searched.
 pub fn figure(results: &Results, t: &Strings) -> Option<Value> {
-    let of = |(index, planner): (usize, &'_ crate::results::PlannerInfo)| {
+    let of = |index: usize| {
         let runs = tunings(results, index);
-        is_tuned(&runs).then(|| (index, runs, planner.label.len()))
+        is_tuned(&runs).then(|| Curves::new(&results.planners[index].label, index, &runs))
     };
-    let curves: Vec<Curves<'_>> = results
-        .planners
-        .iter()
-        .enumerate()
-        .filter_map(of)
-        .map(|(index, runs, _)| Curves::new(&results.planners[index].label, index, &runs))
-        .collect();
+    let curves: Vec<Curves<'_>> = (0..results.planners.len()).filter_map(of).collect();
     let last = curves.iter().map(|c| c.best.len()).max()?.saturating_sub(1);
     let values =
         || curves.iter().flat_map(|c| c.best.iter().chain(&c.mean)).flatten().copied().filter(|v| v.is_finite());

@@ -12,7 +12,7 @@ use crate::statistics::quantile;
 pub const CSS: &str = include_str!("tuning.css");
 
 /// The tunings of one planner, run by run.
-fn tunings<'a>(results: &'a Results, planner: usize) -> Vec<&'a TuningRun> {
+fn tunings(results: &Results, planner: usize) -> Vec<&TuningRun> {
     results.runs_of(&results.planners[planner].label, None).filter_map(|r: &RunRecord| r.tuning.as_ref()).collect()
 }
 
