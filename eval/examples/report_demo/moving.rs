@@ -114,7 +114,7 @@ fn simulation(m: &Manner, settings: &Settings, random: &mut Random) -> (Moving, 
     for event in &trace.events {
         event.bodies.iter().for_each(|b| {
             if let Some(r) = robots.get_mut(*b) {
-                r.collisions += 1
+                r.collisions += 1;
             }
         });
     }
