@@ -157,7 +157,7 @@ class Page:
 
     def press(self, key, text=None):
         """Presses a key as a person does."""
-        codes = {"Enter": 13, "Tab": 9, " ": 32}
+        codes = {"ArrowLeft": 37, "Home": 36, "End": 35, "Enter": 13, "Tab": 9, " ": 32}
         common = {"key": key, "windowsVirtualKeyCode": codes.get(key, ord(key[0].upper()))}
         typed = text if text is not None else {"Enter": "\r", " ": " "}.get(key, key if len(key) == 1 else "")
         self.call("Input.dispatchKeyEvent", type="keyDown", text=typed, **common)

@@ -126,11 +126,57 @@ def keyboard(page):
         expect(f"figure {n} is saved as SVG", """window.saved !== null && !window.saved.includes("var(--") &&
             new DOMParser().parseFromString(window.saved, "image/svg+xml").documentElement.tagName === "svg" &&
             !/<use[^>]*href="#key/.test(window.saved)""")
+    if focus(".player input"):
+        faults += playback(page, expect, focus)
     if focus(".command .copy"):
         page.press("Enter")
         page.run("new Promise((done) => setTimeout(done, 100))")
         expect("a command is copied", "document.activeElement.textContent === document.body.dataset.copied")
     return faults
+
+
+def playback(page, expect, focus):
+    """Pictures of moving scenes, set in motion by the slider and the buttons."""
+    pause = "new Promise((done) => setTimeout(done, 100))"
+    places = ("JSON.stringify([...document.querySelector('.player').parentElement.querySelectorAll('.body')]"
+              ".map((body) => body.getAttribute('transform')))")
+    now = "Number(document.querySelector('.player input').value)"
+    page.run("document.querySelector('.player').scrollIntoView()")
+    page.run(pause)
+    written, end = page.run(places), page.run(now)
+    expect("the slider begins at the end", "document.querySelector('.player input').value > 0")
+    # So far that every picture moves, also of simulations that end before the others.
+    for _ in range(40):
+        page.press("ArrowLeft")
+    expect("the slider goes back", f"{now} < {end} && {places} !== {written!r}")
+    expect("the slider says the time", "/[0-9]\\ss$/.test(document.querySelector('.player input').getAttribute('aria-valuetext'))")
+    page.press("Home")
+    expect("the slider goes to the start", f"{now} === 0")
+    expect("contacts to come are hidden", "document.querySelectorAll('.moving.under-way .hit:not(.later)').length === 0")
+    focus(".player [data-step='1']")
+    page.press("Enter")
+    expect("a step forward", f"{now} === 50")
+    focus(".player [data-step='-1']")
+    page.press("Enter")
+    expect("a step back", f"{now} === 0")
+    focus(".player [data-speed='2']")
+    page.press("Enter")
+    expect("another speed", "document.querySelector('.player [data-speed=\\'2\\']').getAttribute('aria-pressed') === 'true'")
+    focus(".player [data-play]")
+    page.press("Enter")
+    page.run("new Promise((done) => setTimeout(done, 400))")
+    expect("it plays", f"{now} > 0")
+    page.press("Enter")
+    page.run(pause)
+    halted = page.run(now)
+    page.run(pause)
+    expect("it halts", f"{now} === {halted}")
+    focus(".player input")
+    page.press("End")
+    expect("the end is the picture as written", f"{places} === {written!r}")
+    small = """[...document.querySelectorAll('.player button, .player input')]
+        .map((e) => e.getBoundingClientRect()).filter((box) => box.width < 44 || box.height < 44).length"""
+    return [f"{page.run(small)} controls of the playback are too small to touch"] if page.run(small) else []
 
 
 def examine(browser, url):

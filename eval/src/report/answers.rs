@@ -189,7 +189,8 @@ pub fn answers(evidence: &Evidence<'_>, t: &Strings) -> Value {
     context! { size => size(evidence, t), rows, quotes => quotes(evidence, t) }
 }
 
-fn size(evidence: &Evidence<'_>, t: &Strings) -> String {
+/// How large the comparison is, in words.
+pub fn size(evidence: &Evidence<'_>, t: &Strings) -> String {
     let results = evidence.results;
     let (p, s, r) = (results.planners.len(), results.scenes.len(), results.repeats as usize);
     if results.runs.is_empty() {

@@ -47,6 +47,11 @@ impl Camera {
         if !(1e-200..1e200).contains(&size.x) || !(1e-200..1e200).contains(&size.y) {
             region = Aabb { min: Point::new(-1.0, -1.0), max: Point::new(1.0, 1.0) };
         }
+        Self::of(region)
+    }
+
+    /// Sees `region` and nothing else.
+    pub(super) fn of(region: Aabb) -> Self {
         Self { region, scale: WIDTH / region.size().x }
     }
 

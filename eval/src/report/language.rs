@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 
 use minijinja::Value;
 
+use crate::results::Subject;
+
 /// The language of a report.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Language {
@@ -40,9 +42,17 @@ pub struct Strings {
 impl Strings {
     /// Reads the dictionary of `language`.
     pub fn new(language: Language) -> Self {
+        Self::of(language, Subject::Paths)
+    }
+
+    /// That dictionary with the words that reports of `subject` have of their own in the place of others.
+    pub fn of(language: Language, subject: Subject) -> Self {
         // The dictionaries are part of the program and tested: an unreadable one is
         // shown as its keys rather than ending a campaign in a panic.
-        Self { entries: toml::from_str(language.source()).unwrap_or_default() }
+        let all: toml::Table = toml::from_str(language.source()).unwrap_or_default();
+        let own = all.get(subject.name()).and_then(toml::Value::as_table).cloned();
+        let words = |(key, value): (String, toml::Value)| Some((key, value.as_str()?.to_owned()));
+        Self { entries: all.into_iter().chain(own.into_iter().flatten()).filter_map(words).collect() }
     }
 
     /// The words for `key`; the key itself where the dictionary lacks it.
@@ -108,19 +118,44 @@ mod tests {
 
     #[test]
     fn both_languages_have_the_same_keys_and_placeholders() {
-        let (en, zh) = (Strings::new(Language::English), Strings::new(Language::Chinese));
-        assert!(en.entries.len() > 50, "the dictionary is there");
         let keys = |s: &Strings| s.entries.keys().cloned().collect::<Vec<_>>();
-        assert_eq!(keys(&en), keys(&zh));
-        for (key, text) in &en.entries {
-            assert_eq!(placeholders(text), placeholders(zh.get(key)), "placeholders of {key}");
+        for subject in [Subject::Paths, Subject::Simulation, Subject::Behaviour] {
+            let (en, zh) = (Strings::of(Language::English, subject), Strings::of(Language::Chinese, subject));
+            assert!(en.entries.len() > 50, "the dictionary is there");
+            assert_eq!(keys(&en), keys(&zh));
+            for (key, text) in &en.entries {
+                assert_eq!(placeholders(text), placeholders(zh.get(key)), "placeholders of {key}");
+            }
+        }
+    }
+
+    #[test]
+    fn subjects_have_words_of_their_own_for_the_same_keys() {
+        let base = Strings::new(Language::English);
+        for subject in [Subject::Simulation, Subject::Behaviour] {
+            let [en, zh] = [Language::English, Language::Chinese].map(|language| {
+                let all: toml::Table = toml::from_str(language.source()).unwrap();
+                all[subject.name()].as_table().unwrap().clone()
+            });
+            assert_eq!(en.keys().collect::<Vec<_>>(), zh.keys().collect::<Vec<_>>());
+            for (key, words) in &en {
+                assert!(base.has(key), "{key} is a key");
+                let known = placeholders(base.get(key));
+                let unknown = placeholders(words.as_str().unwrap()).into_iter().find(|name| !known.contains(name));
+                assert_eq!(unknown, None, "{key}");
+            }
         }
     }
 
     #[test]
     fn every_key_used_exists_and_every_key_is_used() {
-        let templates =
-            [include_str!("macros.html"), include_str!("evidence.html"), include_str!("page.html")].concat();
+        let templates = [
+            include_str!("macros.html"),
+            include_str!("evidence.html"),
+            include_str!("moving/player.html"),
+            include_str!("page.html"),
+        ]
+        .concat();
         let sources = [
             templates.as_str(),
             include_str!("answers.rs"),
@@ -136,6 +171,14 @@ mod tests {
             include_str!("language.rs"),
             include_str!("missing.rs"),
             include_str!("mod.rs"),
+            include_str!("moving/animation.rs"),
+            include_str!("moving/answers.rs"),
+            include_str!("moving/compute.rs"),
+            include_str!("moving/events.rs"),
+            include_str!("moving/legend.rs"),
+            include_str!("moving/runs.rs"),
+            include_str!("moving/scene.rs"),
+            include_str!("moving/tables.rs"),
             include_str!("own_objective.rs"),
             include_str!("own_picture.rs"),
             include_str!("pairwise.rs"),
@@ -147,6 +190,10 @@ mod tests {
             include_str!("strip.rs"),
             include_str!("svg.rs"),
             include_str!("tables.rs"),
+            include_str!("tuning/answers.rs"),
+            include_str!("tuning/generations.rs"),
+            include_str!("tuning/parameters.rs"),
+            include_str!("tuning/tables.rs"),
             include_str!("variants.rs"),
             include_str!("worst.rs"),
         ]
@@ -157,6 +204,7 @@ mod tests {
                 || sources.split(&format!("t.{key}")).skip(1).any(|s| s.starts_with([' ', ')', ',']))
                 || key.starts_with("status_")
                 || key.starts_with("quantity_")
+                || key.starts_with("weight_")
                 // Made of what is said and the measure.
                 || key.starts_with("phrase_");
             assert!(used, "{key} is never used");

@@ -25,6 +25,7 @@ fn reason(run: &RunRecord) -> usize {
         RunStatus::Crashed => 2,
         RunStatus::Timeout => 3,
         RunStatus::OutOfMemory => 4,
+        _ if run.moving.as_ref().is_some_and(|m| m.metrics.collisions + m.metrics.violations > 0) => 6,
         _ if run.path.is_empty() => 5,
         _ => 6,
     }

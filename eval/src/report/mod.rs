@@ -5,6 +5,9 @@
 //! the commands that replay them, and what is missing; for each scene every planner's best path,
 //! all its runs and what it did, convergence, and how gaps and times spread; settings, seeds and
 //! machine at the end. Every figure has a paragraph that says what it shows and a table with its data.
+//!
+//! Moving scenes and tunings have the same page with figures of their own ([`moving`], [`tuning`]) and words of their
+//! own for what is compared.
 
 mod answers;
 mod axis;
@@ -25,6 +28,7 @@ mod heat;
 mod language;
 mod lines;
 mod missing;
+mod moving;
 mod own_objective;
 mod own_picture;
 mod pairwise;
@@ -39,6 +43,7 @@ mod streamlines;
 mod strip;
 pub mod svg;
 mod tables;
+mod tuning;
 mod variants;
 mod worst;
 
@@ -52,7 +57,7 @@ use language::Strings;
 use scene_section::Extent;
 
 use crate::analysis::{Effort, Measure};
-use crate::results::{Manifest, Results, SceneResult, SceneSet};
+use crate::results::{Manifest, Results, RunRecord, SceneResult, SceneSet, Subject};
 
 /// Scenes shown with every figure.
 pub const FULL: usize = 3;
@@ -63,7 +68,7 @@ const MOST_NOTES: usize = 10;
 
 /// The report of a campaign as one HTML file without outside references.
 pub fn html(results: &Results, language: Language) -> String {
-    let t = Strings::new(language);
+    let (subject, t) = (results.subject, Strings::of(language, results.subject));
     let evidence = Evidence::new(results);
     let one = results.scenes.len() == 1;
     let unit = common_unit(results);
@@ -72,12 +77,19 @@ pub fn html(results: &Results, language: Language) -> String {
         i if i < FULL + SMALL => Extent::Small,
         _ => Extent::Table,
     };
-    let scenes: Vec<Value> =
-        (0..results.scenes.len()).map(|i| scene_section::section(&evidence, i, extent(i), &t)).collect();
-    let overall = if results.scenes.len() > 1 {
-        let every: Vec<&SceneResult> = results.scenes.iter().filter(|s| s.set == SceneSet::Test).collect();
+    let section = |i: usize| match subject {
+        Subject::Paths => Some(scene_section::section(&evidence, i, extent(i), &t)),
+        Subject::Simulation => Some(moving::scene::section(results, i, extent(i) == Extent::Full, &t)),
+        Subject::Behaviour => None,
+    };
+    let scenes: Vec<Value> = (0..results.scenes.len()).filter_map(section).collect();
+    let every: Vec<&SceneResult> = results.scenes.iter().filter(|s| s.set == SceneSet::Test).collect();
+    let overall = if scenes.len() > 1 {
         context! {
-            spread => scene_section::spread(results, &every, "all-spread", &t),
+            spread => match subject {
+                Subject::Simulation => moving::scene::spread(results, &every, "all-spread", &t),
+                _ => scene_section::spread(results, &every, "all-spread", &t),
+            },
             times => scene_section::times(results, None, "all-time", &t),
         }
     } else {
@@ -92,24 +104,48 @@ pub fn html(results: &Results, language: Language) -> String {
             context! { label, kind, settings, swatch => Value::from_safe_string(palette::swatch(i)) }
         })
         .collect();
-    let css =
-        [&palette::css_variables(), svg::FIGURE_CSS, &palette::series_css(), &heat::css(), include_str!("style.css")]
-            .concat();
+    let (own_css, own_script) = match subject {
+        Subject::Paths => ("", ""),
+        Subject::Simulation => (moving::CSS, moving::SCRIPT),
+        Subject::Behaviour => (tuning::CSS, ""),
+    };
+    let css = [
+        &palette::css_variables(),
+        svg::FIGURE_CSS,
+        &palette::series_css(),
+        &heat::css(),
+        include_str!("style.css"),
+        own_css,
+    ]
+    .concat();
+    let by_planner = by_planner(results, &every);
+    let paths = subject == Subject::Paths;
+    let answers = match subject {
+        Subject::Paths => answers::answers(&evidence, &t),
+        Subject::Simulation => moving::answers::answers(&evidence, &by_planner, answers::size(&evidence, &t), &t),
+        Subject::Behaviour => tuning::answers::answers(&evidence, answers::size(&evidence, &t), &t),
+    };
+    let figures = match subject {
+        Subject::Paths => None,
+        Subject::Simulation => Some(moving::tables::comparison(results, &by_planner, "overall-table", &t)),
+        Subject::Behaviour => Some(tuning::tables::comparison(results, "overall-table", &t)),
+    };
     let name = results.scenes.first().filter(|_| one).map(|s| s.scene.name.as_str());
     let page = context! {
         lang => language.tag(), t => t.to_value(), name => results.name.as_str(),
         css => Value::from_safe_string(css),
-        script => Value::from_safe_string(include_str!("script.js").to_owned()),
-        answers => answers::answers(&evidence, &t), unfinished => unfinished(results, &t),
-        table => tables::comparison(&evidence, name, unit, &t),
+        script => Value::from_safe_string([include_str!("script.js"), own_script].concat()),
+        subject => subject.name(), answers, unfinished => unfinished(results, &t),
+        table => paths.then(|| tables::comparison(&evidence, name, unit, &t)), figures,
+        search => (subject == Subject::Behaviour).then(|| search(results, &t)),
         warnings => warnings(&results.manifest, &t),
         matrix => if one { Value::from(()) } else { tables::matrix(results) },
         small_first => t.fill("scene_small_first", &[("n", &scene_section::DRAWN_SMALL.to_string())]),
         others => results.scenes.len() > FULL,
         overall, scenes, planners, runs => results.runs.len(),
         keys => Value::from_safe_string(palette::keys(results.planners.len())),
-        evidence => statistics(&evidence, &t), tuning => tuning(results, &t),
-        worst => worst::figure(results, &t), missing => missing::figure(results, &t),
+        evidence => statistics(&evidence, &by_planner, &t), tuning => tuning_note(results, &t),
+        worst => paths.then(|| worst::figure(results, &t)).flatten(), missing => missing::figure(results, &t),
         seed => results.seed.to_string(), repeats => results.repeats, seeds => seeds(results),
         manifest => provenance::manifest(&results.manifest, &t), machines => provenance::machines(results, &t),
     };
@@ -120,9 +156,11 @@ pub fn html(results: &Results, language: Language) -> String {
 }
 
 /// The figures and tables over all test scenes.
-fn statistics(evidence: &Evidence<'_>, t: &Strings) -> Value {
+fn statistics(evidence: &Evidence<'_>, by_planner: &[moving::ByScene<'_>], t: &Strings) -> Value {
+    let subject = evidence.results.subject;
+    let paths = subject == Subject::Paths;
     let both = |figure: &dyn Fn(Effort) -> Option<Value>| -> Vec<Value> {
-        [Effort::Evaluations, Effort::Time].into_iter().filter_map(figure).collect()
+        [Effort::Evaluations, Effort::Time].into_iter().filter(|_| paths).filter_map(figure).collect()
     };
     let tuning = evidence.results.scenes.len() - evidence.grid.scenes.len();
     let scenes = t.plural(evidence.scenes().len(), "scenes_one", "scenes");
@@ -136,19 +174,38 @@ fn statistics(evidence: &Evidence<'_>, t: &Strings) -> Value {
     }
     context! {
         scope,
-        families => families::figure(evidence, t),
-        budgets => variants::budgets(evidence, t), variants => variants::groups(evidence, t),
+        families => paths.then(|| families::figure(evidence, t)).flatten(),
+        compute => (subject == Subject::Simulation)
+            .then(|| moving::compute::figure(evidence.results, by_planner, "compute", t)).flatten(),
+        budgets => paths.then(|| variants::budgets(evidence, t)).flatten(), variants => variants::groups(evidence, t),
         ecdf => both(&|effort| ecdf::figure(evidence, effort, t)),
         ert => both(&|effort| ert::figure(evidence, effort, t)),
         fixed => both(&|effort| fixed_budget::figure(evidence, effort, t)),
         critical => critical_difference::figure(evidence, t),
         pairwise => pairwise::figure(evidence, t), sentences => answers::sentences(evidence, t),
-        own => own_objective::figure(evidence, t), noise => provenance::times(evidence, t),
+        own => paths.then(|| own_objective::figure(evidence, t)).flatten(), noise => provenance::times(evidence, t),
+    }
+}
+
+/// Every planner's runs in `scenes`, scene by scene.
+fn by_planner<'a>(results: &'a Results, scenes: &[&'a SceneResult]) -> Vec<moving::ByScene<'a>> {
+    let runs =
+        |planner: &'a str, scene: &'a str| -> Vec<&'a RunRecord> { results.runs_of(planner, Some(scene)).collect() };
+    let of = |planner: &'a str| scenes.iter().map(|s| runs(planner, &s.scene.name)).collect();
+    results.planners.iter().map(|p| of(&p.label)).collect()
+}
+
+/// How behaviour control was tuned, and what came of it.
+fn search(results: &Results, t: &Strings) -> Value {
+    context! {
+        spread => tuning::tables::spread(results, t), generations => tuning::generations::figure(results, t),
+        parameters => tuning::parameters::parameters(results, t), weights => tuning::parameters::weights(results, t),
+        protocol => results.protocol.trim_end(),
     }
 }
 
 /// Which scenes take no part in statistics.
-fn tuning(results: &Results, t: &Strings) -> Option<String> {
+fn tuning_note(results: &Results, t: &Strings) -> Option<String> {
     let tuning = results.scenes.iter().filter(|s| s.set == SceneSet::Tuning);
     let names: Vec<String> = tuning.map(|s| s.scene.name.clone()).collect();
     let scenes = t.plural(names.len(), "scenes_one", "scenes");
@@ -164,7 +221,13 @@ fn render(page: &Value) -> Result<String, minijinja::Error> {
     let mut environment = Environment::new();
     environment.set_auto_escape_callback(|_| AutoEscape::Html);
     environment.set_undefined_behavior(UndefinedBehavior::Strict);
-    let parts = [include_str!("macros.html"), include_str!("evidence.html"), include_str!("page.html")].concat();
+    let parts = [
+        include_str!("macros.html"),
+        include_str!("evidence.html"),
+        include_str!("moving/player.html"),
+        include_str!("page.html"),
+    ]
+    .concat();
     environment.add_template_owned("page.html", parts)?;
     environment.get_template("page.html")?.render(page)
 }

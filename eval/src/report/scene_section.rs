@@ -107,7 +107,7 @@ pub fn section(evidence: &Evidence<'_>, index: usize, extent: Extent, t: &String
         copies => Value::from_safe_string(copies),
         cards, miniatures, convergence => charts.0, no_convergence, pareto => own.0, fitness => own.1, spread => charts.1, times => charts.2,
         more => by_planner.iter().any(|r| r.len() > DRAWN_SMALL), small_drawn => DRAWN_SMALL,
-        tuning => scene.set == SceneSet::Tuning,
+        moving => false, tuning => scene.set == SceneSet::Tuning,
         full => extent == Extent::Full, runs => by_planner.iter().map(Vec::len).sum::<usize>(),
     }
 }

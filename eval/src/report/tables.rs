@@ -7,7 +7,8 @@ use super::language::Strings;
 use super::palette;
 use crate::analysis::{Measure, Summary, counted_length, summarise};
 use crate::format;
-use crate::results::{Results, RunRecord, SceneSet};
+use crate::results::{Results, RunRecord, SceneResult, SceneSet};
+use crate::statistics::median;
 use crate::statistics::median_interval::median_interval;
 use crate::statistics::wilson;
 
@@ -138,11 +139,18 @@ pub fn matrix(results: &Results) -> Value {
                     },
                 })
                 .collect();
-            context! { name, anchor => super::scene_anchor(i), optimum => optimum(s.optimum.length), cells, tuning => s.set == SceneSet::Tuning,
-                key => format::sort_key(s.optimum.length.unwrap_or(f64::INFINITY)) }
+            context! { name, anchor => super::scene_anchor(i), optimum => optimum(reference(results, s)), cells, tuning => s.set == SceneSet::Tuning,
+                key => format::sort_key(reference(results, s).unwrap_or(f64::INFINITY)) }
         })
         .collect();
     Value::from(rows)
+}
+
+/// What a scene's lengths are measured against: its optimum, of a moving one the median lower bound on arrival.
+fn reference(results: &Results, scene: &SceneResult) -> Option<f64> {
+    let runs = results.runs.iter().filter(|r| r.scene == scene.scene.name);
+    let least: Vec<f64> = runs.filter_map(|r| Some(r.moving.as_ref()?.metrics.least_s)).collect();
+    scene.optimum.length.or_else(|| median(&least))
 }
 
 fn optimum(length: Option<f64>) -> String {

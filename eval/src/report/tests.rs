@@ -38,7 +38,7 @@ pub fn run(scene: &str, planner: &str, repeat: u32, length: Option<f64>) -> RunR
     }
 }
 
-fn scene(name: &str) -> Scene {
+pub fn scene(name: &str) -> Scene {
     let mut scene = Scene {
         name: name.to_owned(),
         unit: "cm".to_owned(),
@@ -115,7 +115,7 @@ fn unbalanced(markup: &str) -> Option<String> {
 }
 
 /// Checks that hold for every page.
-fn check(page: &str) {
+pub fn check(page: &str) {
     assert!(page.starts_with("<!doctype html>"), "{}", &page[..page.len().min(300)]);
     assert!(page.trim_end().ends_with("</html>"));
     for bad in ["NaN", ">inf<", ">None<", ">none<", "undefined:", "http:", "https:", "//cdn", "@import"] {

@@ -3,6 +3,9 @@
 //!
 //! The paths and numbers resemble those of the 2012 scene but are drawn at random.
 
+mod behaviour;
+mod moving;
+
 use std::f64::consts::PI;
 use std::path::Path;
 
@@ -301,8 +304,20 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         true,
         30,
     )?;
+    let simulated = moving::campaign(30, one.manifest.clone());
+    // One scene, and every run of one planner failed.
+    let mut lone = moving::campaign(8, one.manifest.clone());
+    lone.scenes.truncate(1);
+    lone.runs.retain(|r| r.scene == lone.scenes[0].scene.name);
+    lone.traces.retain(|k| k.scene == lone.scenes[0].scene.name);
+    let tuned = behaviour::campaign(20, one.manifest.clone());
     let troubled = troubled(campaign("troubled", (0..4).map(|i| pitch(i, &mut random)).collect(), true, 20)?);
     for (file, page) in [
+        ("moving.html", html(&simulated, Language::English)),
+        ("moving-one.html", html(&lone, Language::English)),
+        ("moving-zh.html", html(&simulated, Language::Chinese)),
+        ("behaviour.html", html(&tuned, Language::English)),
+        ("behaviour-zh.html", html(&tuned, Language::Chinese)),
         ("troubled.html", html(&troubled, Language::English)),
         ("troubled-zh.html", html(&troubled, Language::Chinese)),
         ("paper.html", html(&one, Language::English)),
