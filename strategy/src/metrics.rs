@@ -36,7 +36,7 @@ pub struct Metrics {
     pub formation_error: Option<f64>,
     /// Calls of controllers.
     pub calls: u64,
-    /// Calls whose answer was to brake because nothing was found.
+    /// Calls whose answer was to brake: nothing was found, or there was no time left to stop later.
     pub brakes: u64,
     /// Calls whose answer was to escape from an obstacle.
     pub escapes: u64,

@@ -27,7 +27,7 @@ const fn timed(name: &'static str, definition: &'static str, value: fn(&Moving) 
 }
 
 /// The metrics of a simulation, in the order of `simulations.csv`. All but calls are as the referee saw them.
-pub const MOVING: [MovingMetric; 33] = [
+pub const MOVING: [MovingMetric; 34] = [
     counted("duration_s", "s", "simulated time: until all had arrived, at most the scene's", |m| {
         Some(m.metrics.duration_s)
     }),
@@ -59,12 +59,16 @@ pub const MOVING: [MovingMetric; 33] = [
         Some(f64::from(m.metrics.fouls))
     }),
     counted("fouls_per_min", "1/min", "crash fouls a simulated minute", |m| Some(m.metrics.fouls_per_minute())),
-    counted("violations", "count", "contacts of an own robot with what stands still, or steps over the border", |m| {
-        Some(f64::from(m.metrics.violations))
-    }),
+    counted(
+        "violations",
+        "count",
+        "times that an own robot went over the border or into a zone of the rules, or became faster than they allow",
+        |m| Some(f64::from(m.metrics.violations)),
+    ),
     counted("violations_per_min", "1/min", "violations a simulated minute", |m| {
         Some(f64::from(m.metrics.violations) * 60.0 / m.metrics.duration_s)
     }),
+    counted("violation_s", "s", "mean time that an own robot spent so", |m| Some(m.metrics.violation_s)),
     counted(
         "least_clearance",
         "m",
@@ -84,7 +88,7 @@ pub const MOVING: [MovingMetric; 33] = [
         m.metrics.formation_error
     }),
     counted("calls", "count", "calls of controllers", |m| Some(m.metrics.calls as f64)),
-    counted("brakes", "count", "calls answered by braking because nothing was found", |m| {
+    counted("brakes", "count", "calls answered by braking: nothing was found, or no time left to stop later", |m| {
         Some(m.metrics.brakes as f64)
     }),
     counted("escapes", "count", "calls answered by escaping from an obstacle", |m| Some(m.metrics.escapes as f64)),
