@@ -11,7 +11,7 @@
 //! Vasquez Govea, Fraichard & Siegwart 2009).
 
 use env_model::motion::contact::{enters_world, meets};
-use env_model::motion::{Limits, Mover, Path, Piece, State, Trajectory, brake};
+use env_model::motion::{Limits, Mover, Path, Piece, Side, State, Trajectory, brake};
 use env_model::{Point, World};
 use planner_api::Situation;
 
@@ -74,13 +74,23 @@ impl Foresight {
         first
     }
 
-    /// Whether the robot could stop after the first period of `trajectory`.
+    /// Whether the robot could stop after the first period of `trajectory` without touching what stands still or a
+    /// mate. Opponents are left out: to stand does not help against one who keeps coming.
     pub fn can_stop(&mut self, situation: &Situation<'_>, trajectory: &Trajectory) -> bool {
+        self.stops(situation, trajectory, |side| side == Side::Mate)
+    }
+
+    /// The same without touching anybody.
+    pub fn can_stop_for_all(&mut self, situation: &Situation<'_>, trajectory: &Trajectory) -> bool {
+        self.stops(situation, trajectory, |_| true)
+    }
+
+    fn stops(&mut self, situation: &Situation<'_>, trajectory: &Trajectory, heeded: impl Fn(Side) -> bool) -> bool {
         let Situation { world, movers, limits, period, .. } = *situation;
         let mut stop = std::mem::take(&mut self.stop);
         stop_after(trajectory, period, limits, &mut self.leg, &mut stop);
-        let free = world_contact(&stop, world).is_infinite()
-            && movers.iter().enumerate().all(|(i, mover)| self.avoids(i, mover, &stop));
+        let mut movers = movers.iter().enumerate().filter(|(_, mover)| heeded(mover.side));
+        let free = world_contact(&stop, world).is_infinite() && movers.all(|(i, mover)| self.avoids(i, mover, &stop));
         self.stop = stop;
         free
     }

@@ -36,7 +36,7 @@ impl Call<'_, '_, '_> {
     /// A contact no later than this is of no interest.
     fn bar(&self) -> f64 {
         match self.best.map(|b| b.worth) {
-            Some(Worth::Arrives(_) | Worth::Rests(_)) => f64::MAX,
+            Some(Worth::Arrives(_) | Worth::Rests(_) | Worth::Dares(_)) => f64::MAX,
             Some(Worth::Touches(t)) => -t,
             Some(Worth::Risks(_)) | None => 0.0,
         }
@@ -115,8 +115,15 @@ impl Trial {
         if !call.improves(worth) {
             return;
         }
-        let can_stop = self.foresight.can_stop(call.situation, &self.candidate);
-        let worth = if can_stop { worth } else { Worth::Risks(-time) };
+        let worth = match worth {
+            _ if !self.foresight.can_stop(call.situation, &self.candidate) => Worth::Risks(-time),
+            Worth::Arrives(t) | Worth::Rests(t)
+                if !self.foresight.can_stop_for_all(call.situation, &self.candidate) =>
+            {
+                Worth::Dares(t)
+            }
+            worth => worth,
+        };
         if call.improves(worth) {
             call.best = Some(Best { way, worth });
             call.out.copy_from(&self.candidate);

@@ -38,6 +38,8 @@ pub enum Worth {
     Arrives(f64),
     /// Free, but to somewhere else: when the robot could be at the goal if it were free to go on from there.
     Rests(f64),
+    /// Free, as [`Worth::Arrives`], but the robot could not stop in time if an opponent did anything unforeseen.
+    Dares(f64),
     /// Touches something after these seconds, negated; the robot could stop before.
     Touches(f64),
     /// The same, and it might be too late for stopping.
@@ -51,6 +53,7 @@ impl Worth {
         match self {
             Self::Arrives(t) => Self::Arrives(t - seconds),
             Self::Rests(t) => Self::Rests(t - seconds),
+            Self::Dares(t) => Self::Dares(t - seconds),
             Self::Touches(t) => Self::Touches(t - seconds),
             Self::Risks(t) => Self::Risks(t - seconds),
         }
