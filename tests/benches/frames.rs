@@ -3,8 +3,8 @@
 //! Eleven robots run to positions that change whenever all have arrived, for ten simulated minutes: alone, and
 //! among eleven opponents that drift about. What is measured is what a strategy layer waits for: the guard's answer for one
 //! robot, worlds and predictions included, and the answers of all robots of a frame. Everything is done twice: the same
-//! seed must give the same trajectories to the last bit. Memory is the process's resident set, looked at every
-//! simulated minute.
+//! seed must give the same trajectories to the last bit. Memory is the process's resident set after a tenth of the time
+//! and at the end.
 //!
 //! `-- --minutes 1` is a quick look, `-- --planner tangent` one planner alone.
 
@@ -17,8 +17,8 @@ use touchline_tests::report::{cpu, option, print_table, time};
 /// Planner, settings, budget of evaluations a call, mark for the 99 % quantile of a frame among opponents in µs.
 const PLANNERS: [(&str, &str, u64, f64); 2] = [
     ("tangent", "", u64::MAX, 2000.0),
-    // Twenty iterations of twenty particles, and what the refinement needs.
-    ("pso-qp", "", 400, 12000.0),
+    // Nineteen iterations of twenty particles, and what the refinement needs.
+    ("pso-qp", "qp = { solver = \"structured\" }", 400, 12000.0),
 ];
 
 /// One long simulation.
@@ -46,8 +46,9 @@ fn main() -> ExitCode {
             let run = || simulate(kind, settings, evaluations, opponents, 60.0 * minutes);
             let (outcome, again) = (run(), run());
             same &= outcome.hash == again.hash;
-            // Flat: what is kept of a wave of eleven ways is a kilobyte; a call that leaked would leave hundreds.
-            flat &= outcome.memory[1] < outcome.memory[0] + 2048;
+            // What is kept of a wave of eleven ways is a kilobyte; a call that leaked a hundred bytes would leave 36 MB.
+            // In the first minutes buffers still grow to their size.
+            flat &= minutes < 10.0 || outcome.memory[1] < outcome.memory[0] + 1024;
             let (call, frame) = (outcome.compute.call_us.map(time), outcome.compute.frame_us.map(time));
             let [c50, c99, c999, c_max] = call;
             let [f50, f99, f999, f_max] = frame;
@@ -84,7 +85,7 @@ fn main() -> ExitCode {
 fn simulate(kind: &str, planner: &str, evaluations: u64, opponents: usize, duration_s: f64) -> Outcome {
     let settings = Settings {
         play: PlayKind::Positions,
-        waves: usize::MAX,
+        waves: 10_000,
         robots: 11,
         opponents,
         duration_s,
