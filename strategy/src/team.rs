@@ -172,7 +172,7 @@ impl Team {
     ) {
         let TeamSettings { period, horizon, .. } = self.settings;
         let later = |j: usize| if j < i { &self.answers[j].trajectory } else { &self.stops[j] };
-        let movers = movers(&self.settings, i, view, later);
+        let movers = movers(&self.settings, i, view, tasks, later);
         let world = &worlds[task.world];
         let situation = Situation::new(world, &movers, view.own[i], task.goal, task.limits, horizon, period);
         let result = match situation {
@@ -214,6 +214,7 @@ fn movers<'m>(
     settings: &TeamSettings,
     i: usize,
     view: &View<'_>,
+    tasks: &[Task],
     way: impl Fn(usize) -> &'m Trajectory,
 ) -> Vec<Mover<'m>> {
     let radius = 2.0 * ROBOT_RADIUS;
@@ -222,7 +223,11 @@ fn movers<'m>(
             Cooperation::Independent => Path::Velocity(mate.velocity),
             Cooperation::Priority => Path::Trajectory(way(j)),
         };
-        Mover::disc(mate.position, radius, path, Side::Mate)
+        let mate = Mover::disc(mate.position, radius, path, Side::Mate);
+        match tasks.get(j) {
+            Some(task) => mate.with_braking(task.limits.acceleration),
+            None => mate,
+        }
     });
     let opponents =
         view.opponents.iter().map(|o| Mover::disc(o.position, radius, Path::Velocity(o.velocity), Side::Opponent));
