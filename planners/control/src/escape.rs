@@ -89,8 +89,7 @@ pub(crate) fn nearest_accepted(
         if let Some((_, q)) = candidates.iter().find(|(_, q)| free(*q) && accepts(*q)) {
             return Some(*q);
         }
-        // Whatever is not finite ends the search, too.
-        if !(reach <= furthest) {
+        if reach > furthest || !furthest.is_finite() {
             return None;
         }
         tried = reach;

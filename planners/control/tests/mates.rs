@@ -201,6 +201,15 @@ fn unequal_decelerations_do_not_collide() {
 }
 
 #[test]
+fn a_search_from_any_distance_ends() {
+    let disc = [Mover::disc(Point::origin(), CONTACT, Path::Velocity(Vector::zeros()), Side::Other)];
+    for far in [1e6, 1e150, 1e200, 1e308, f64::INFINITY, f64::NAN] {
+        let out = nearest_free(&world(vec![]), &disc, Point::new(far, 0.0));
+        assert!(out.is_some() || far > 1e6 || far.is_nan(), "{far}");
+    }
+}
+
+#[test]
 fn movers_far_from_the_world_are_left() {
     // A wall of 100 m round p, in a world of 6 m without a field.
     let world = World::new(&Scene {
