@@ -143,12 +143,12 @@ impl Team {
             before.trajectory.advance(self.settings.period);
             brake(*state, task.limits, way);
         }
-        for (i, task) in tasks.iter().enumerate() {
+        for i in 0..tasks.len() {
             let mut state = seed ^ (self.frame << 8 | i as u64);
             let mut run = Run::new(splitmix64(&mut state)).with_budget(budget());
             let mut answer = std::mem::take(&mut self.scratch);
             let began = clock();
-            self.one(i, view, task, worlds, first, &mut run, &mut answer);
+            self.one(i, view, tasks, worlds, first, &mut run, &mut answer);
             self.call_times.push(clock() - began);
             self.scratch = std::mem::replace(&mut self.answers[i], answer);
             self.work.iterations += run.spent.iterations;
@@ -164,7 +164,7 @@ impl Team {
         &mut self,
         i: usize,
         view: &View<'_>,
-        task: &Task,
+        tasks: &[Task],
         worlds: &[World],
         first: bool,
         run: &mut Run<'_>,
@@ -172,7 +172,8 @@ impl Team {
     ) {
         let TeamSettings { period, horizon, .. } = self.settings;
         let later = |j: usize| if j < i { &self.answers[j].trajectory } else { &self.stops[j] };
-        let movers = movers(&self.settings, i, view, later);
+        let movers = movers(&self.settings, i, view, tasks, later);
+        let task = &tasks[i];
         let world = &worlds[task.world];
         let situation = Situation::new(world, &movers, view.own[i], task.goal, task.limits, horizon, period);
         let result = match situation {
@@ -214,6 +215,7 @@ fn movers<'m>(
     settings: &TeamSettings,
     i: usize,
     view: &View<'_>,
+    tasks: &[Task],
     way: impl Fn(usize) -> &'m Trajectory,
 ) -> Vec<Mover<'m>> {
     let radius = 2.0 * ROBOT_RADIUS;
@@ -222,7 +224,11 @@ fn movers<'m>(
             Cooperation::Independent => Path::Velocity(mate.velocity),
             Cooperation::Priority => Path::Trajectory(way(j)),
         };
-        Mover::disc(mate.position, radius, path, Side::Mate)
+        let mate = Mover::disc(mate.position, radius, path, Side::Mate);
+        match tasks.get(j) {
+            Some(task) => mate.with_braking(task.limits.acceleration),
+            None => mate,
+        }
     });
     let opponents =
         view.opponents.iter().map(|o| Mover::disc(o.position, radius, Path::Velocity(o.velocity), Side::Opponent));

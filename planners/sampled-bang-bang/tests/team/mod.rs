@@ -217,6 +217,7 @@ pub fn check_hostile(new: impl Fn() -> Box<dyn Controller>) {
         path: Path::Velocity(Vector::new(0.5, 0.0)),
         margin: 1e3,
         side: Side::Other,
+        braking: None,
     };
     let movers = [
         vec![],
