@@ -151,7 +151,7 @@ impl Simulation {
             seed: seed ^ 0x5eed_0f7e_a3b1_2c4d,
             rng,
             play,
-            team: Team::new(team_settings, guards),
+            team: Team::new(team_settings, guards)?,
             referee: Referee::new(n, opponents.len()),
             goals: own.iter().map(|state| state.position).collect(),
             asked: Vec::new(),
