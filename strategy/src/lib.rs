@@ -10,6 +10,7 @@ mod bodies;
 mod draw;
 pub mod league;
 mod metrics;
+mod orders;
 pub mod plays;
 mod record;
 pub mod referee;

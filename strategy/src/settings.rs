@@ -117,11 +117,13 @@ pub struct Settings {
     pub margin: f64,
     /// From a picture to the robot's obeying, 0 to 1000 ms; default 0.
     pub latency_ms: f64,
-    /// Standard deviation of observed positions, ≥ 0 m; default 0.
+    /// Standard deviation of positions as vision sees them, ≥ 0 m; default 0. Of own robots the wheels tell how they
+    /// moved, and a filter joins both.
     pub position_noise: f64,
-    /// Standard deviation of observed velocities, ≥ 0 m/s; default 0.
+    /// Standard deviation of velocities as vision sees them, those of opponents, ≥ 0 m/s; default 0.
     pub velocity_noise: f64,
-    /// Standard deviation of the velocity that a robot makes of the one asked for, relative to it, 0 to 1; default 0.
+    /// Standard deviation of the acceleration that a robot makes of the one it needs, relative to it, drawn every
+    /// frame, 0 to 1; default 0.
     pub actuation_noise: f64,
     /// How starts differ between seeds: greatest displacement, ≥ 0 m; default 0.1.
     pub jitter: f64,

@@ -3,13 +3,14 @@
 use std::time::{Duration, Instant};
 
 use env_model::motion::{Limits, MotionError, State, Trajectory, bang_bang, least_time};
-use env_model::{Point, SceneError};
+use env_model::{Point, SceneError, Vector};
 use planner_api::{Budget, SettingError};
 use planner_catalogue::BuildError;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 use crate::league::{BALL_RADIUS, ROBOT_RADIUS};
+use crate::orders::Orders;
 use crate::plays::{Conduct, Play, Setup, play};
 use crate::record::Stopwatch;
 use crate::referee::Referee;
@@ -19,8 +20,12 @@ use crate::{
     Body, Metrics, Origin, Record, RobotRecord, Settings, Task, Team, TeamSettings, Trace, TraceBody, View, draw,
 };
 
-/// A robot has arrived where it is no further from its goal, in metres, and slower, in m/s.
-const ARRIVED: [f64; 2] = [0.02, 0.05];
+/// A robot has arrived where it is no further from its goal, in metres, and slower, in m/s. It is counted as if it went on
+/// as quickly as it can until it stands there, so that nobody gains by this and nobody beats the least time.
+const ARRIVED: [f64; 2] = [0.03, 0.1];
+/// How much of the difference between where an own robot is seen and where its wheels have taken it is believed, each
+/// frame: a constant-gain filter, which leaves a third of the noise.
+const CORRECTION: f64 = 0.2;
 /// A robot stands where it is slower, in m/s.
 const STANDING: f64 = 0.05;
 /// Looks ahead, in seconds, at which two plans are compared.
@@ -92,12 +97,13 @@ pub struct Simulation {
     tasks: Vec<Task>,
     conducts: Vec<Conduct>,
     believed: Vec<State>,
-    /// What own robots are following: trajectories with the times at which they take effect, the oldest first.
-    orders: Vec<Vec<(f64, Trajectory)>>,
+    /// Where own robots are, as vision and their wheels together tell.
+    located: Vec<Point>,
+    orders: Vec<Orders>,
     referee: Referee,
     frame: u64,
     next_swap: usize,
-    /// Since when each own robot has stood at its goal.
+    /// When each own robot that is at its goal came to stand there.
     arrived: Vec<Option<f64>>,
     travelled: Vec<f64>,
     switches: u64,
@@ -168,7 +174,8 @@ impl Simulation {
             tasks: vec![Task::new(Point::origin(), limits); n],
             conducts: vec![Conduct::Drift; opponents.len()],
             believed: bodies.iter().map(|b| b.state).collect(),
-            orders: vec![Vec::new(); n],
+            located: bodies[..n].iter().map(|b| b.state.position).collect(),
+            orders: vec![Orders::default(); n],
             frame: 0,
             next_swap: 0,
             arrived: vec![None; n],
@@ -202,7 +209,7 @@ impl Simulation {
     /// Whether it is over: all stand at their goals, or the time is up.
     pub fn is_over(&self) -> bool {
         let last = self.waves + 1 >= self.settings.waves;
-        self.time() >= self.settings.duration_s || (last && self.arrived.iter().all(Option::is_some))
+        self.time() >= self.settings.duration_s || (last && self.wave_is_over(self.time()))
     }
 
     /// The team.
@@ -239,7 +246,7 @@ impl Simulation {
         self.next_wave(time);
         self.picture(time);
         let latency = self.settings.latency_ms * 1e-3;
-        self.observe(time + latency, latency);
+        self.observe(time, latency);
         self.direct(time);
         let (own, opponents) = self.believed.split_at(n);
         let view = View { time, own, opponents, ball: self.ball };
@@ -248,11 +255,7 @@ impl Simulation {
         self.stopwatch.frame(&self.team.call_times);
         self.count(period);
         for (orders, answer) in self.orders.iter_mut().zip(self.team.answers()) {
-            // What was overtaken is reused.
-            let mut order =
-                if orders.len() > 1 && orders[1].0 <= time { orders.remove(0).1 } else { Trajectory::default() };
-            order.copy_from(&answer.trajectory);
-            orders.push((time + latency, order));
+            orders.give(time, time + latency, &answer.trajectory);
         }
         self.advance(time, period);
         self.play.carry(&self.bodies[..n], &mut self.ball);
@@ -292,10 +295,15 @@ impl Simulation {
         }
     }
 
+    /// Whether all have arrived, or had their time.
+    fn wave_is_over(&self, time: f64) -> bool {
+        let late = self.settings.waves > 1 && time - self.wave_began >= self.settings.wave_s;
+        late || self.arrived.iter().all(Option::is_some)
+    }
+
     /// Gives out new goals where those so far are done with.
     fn next_wave(&mut self, time: f64) {
-        let done = time - self.wave_began >= self.settings.wave_s || self.arrived.iter().all(Option::is_some);
-        if !done || self.waves + 1 >= self.settings.waves {
+        if !self.wave_is_over(time) || self.waves + 1 >= self.settings.waves {
             return;
         }
         self.ways.extend(self.wave());
@@ -324,26 +332,29 @@ impl Simulation {
         (0..self.starts.len()).map(way).collect()
     }
 
-    /// What the team believes of `then`, `ahead` seconds from now, when its answers take effect.
-    fn observe(&mut self, then: f64, ahead: f64) {
+    /// What the team believes of the time `ahead` seconds from `now`, when its answers take effect.
+    fn observe(&mut self, now: f64, ahead: f64) {
         let Settings { position_noise, velocity_noise, .. } = self.settings;
         for (i, body) in self.bodies.iter().enumerate() {
             let mut seen = body.state;
             if position_noise > 0.0 || velocity_noise > 0.0 {
                 let [px, py, vx, vy] = std::array::from_fn(|_| draw::normal(&mut self.rng));
-                seen.position += env_model::Vector::new(px, py) * position_noise;
-                seen.velocity += env_model::Vector::new(vx, vy) * velocity_noise;
+                seen.position += Vector::new(px, py) * position_noise;
+                seen.velocity += Vector::new(vx, vy) * velocity_noise;
             }
-            self.believed[i] = match self.orders.get(i).and_then(|orders| orders.last()) {
-                // Own robots will have followed their orders.
-                Some((since, order)) if ahead > 0.0 => {
-                    let [now, later] = [order.state((then - ahead - since).max(0.0)), order.state(then - since)];
-                    State {
-                        position: seen.position + (later.position - now.position),
-                        velocity: seen.velocity + (later.velocity - now.velocity),
+            self.believed[i] = match self.orders.get(i) {
+                // Own robots: the wheels tell how they have moved, vision where, and orders how they will.
+                Some(orders) => {
+                    if position_noise > 0.0 {
+                        let moved = self.located[i] + (body.state.position - body.motion.start().position);
+                        self.located[i] = moved + (seen.position - moved) * CORRECTION;
+                    } else {
+                        self.located[i] = body.state.position;
                     }
+                    let (way, change) = orders.change(now, now + ahead);
+                    State { position: self.located[i] + way, velocity: body.state.velocity + change }
                 }
-                _ => State { position: seen.position + seen.velocity * ahead, ..seen },
+                None => State { position: seen.position + seen.velocity * ahead, ..seen },
             };
         }
     }
@@ -355,11 +366,10 @@ impl Simulation {
         let n = self.starts.len();
         for (i, body) in self.bodies[..n].iter_mut().enumerate() {
             let before = body.state.position;
-            let current = self.orders[i].iter().rev().find(|(since, _)| *since <= time);
-            match current {
-                Some((since, order)) if exact => body.follow(order, time - since, period),
-                Some((since, order)) => body.track(order, time - since, period, actuation_noise, &mut self.rng),
-                None => body.track(&Trajectory::new(State::at_rest(before)), 0.0, period, 0.0, &mut self.rng),
+            if exact {
+                body.follow(&self.orders[i], time, period);
+            } else {
+                body.track(&self.orders[i], time, period, actuation_noise, &mut self.rng);
             }
             let way: f64 = (0..8)
                 .map(|k| f64::from(k) / 8.0 * period)
@@ -387,7 +397,7 @@ impl Simulation {
                     run.begin(body.state);
                 }
             }
-            body.follow(&run, 0.0, period);
+            body.run(&run, period);
         }
     }
 
@@ -438,7 +448,8 @@ impl Simulation {
         for (i, since) in self.arrived.iter_mut().enumerate() {
             let State { position, velocity } = self.bodies[i].state;
             let there = (position - self.goals[i]).norm() <= ARRIVED[0] && velocity.norm() <= ARRIVED[1];
-            *since = if there { since.or(Some(time)) } else { None };
+            let left = || least_time(self.bodies[i].state, self.goals[i], self.limits);
+            *since = if there { since.or_else(|| Some(time + left())) } else { None };
         }
     }
 
@@ -453,9 +464,11 @@ impl Simulation {
     pub fn record(mut self) -> Record {
         self.picture(f64::INFINITY);
         let n = self.starts.len();
-        let last = self.wave();
         let mut robots = std::mem::take(&mut self.ways);
-        robots.extend(last);
+        // A wave that the end cuts short says nothing, unless there is no other.
+        if robots.is_empty() || self.wave_is_over(self.time()) {
+            robots.extend(self.wave());
+        }
         let mean = |values: &mut dyn Iterator<Item = f64>| {
             let (sum, count) = values.fold((0.0, 0), |(sum, count), v| (sum + v, count + 1));
             (count > 0).then(|| sum / f64::from(count))

@@ -183,19 +183,21 @@ fn waves_follow_each_other() {
         for wave in 1..3 {
             let [before, now] = [wave - 1, wave].map(|w| &record.robots[2 * w + robot]);
             let gap = (Point::from(before.goal) - Point::from(now.start)).norm();
-            assert!(gap <= 0.02, "it begins where it arrived");
+            assert!(gap <= 0.03, "it begins where it arrived");
             assert!(now.goal != before.goal);
-            assert!(now.arrival_s.unwrap() >= now.least_s - 0.02, "{now:?}");
+            assert!(now.arrival_s.unwrap() >= now.least_s * (1.0 - 1e-12), "{now:?}");
         }
     }
     let longest = |wave: &[strategy::RobotRecord]| wave.iter().filter_map(|r| r.arrival_s).fold(0.0, f64::max);
     let sum: f64 = record.robots.chunks(2).map(longest).sum();
-    // A wave ends with the frame in which the last one has arrived.
-    assert!((record.metrics.duration_s - sum).abs() < 3.0 / 60.0, "{sum} {}", record.metrics.duration_s);
+    // A wave ends with the frame in which the last one is at its goal; its arrival counts the last centimetres, 3 of
+    // them at 3 m/s² and 10 cm/s in the wrong direction take a quarter of a second.
+    let over = sum - record.metrics.duration_s;
+    assert!((-3.0 / 60.0..0.75).contains(&over), "{sum} {}", record.metrics.duration_s);
 
     let hurried = Settings { wave_s: 1.0, duration_s: 3.5, waves: 100, ..settings };
     let record = run(&hurried, "tangent", 1);
-    assert_eq!(record.robots.len(), 8, "four waves began");
+    assert_eq!(record.robots.len(), 6, "three waves had their time, the fourth was cut short");
     let attack = Settings { waves: 2, play: PlayKind::Attack, ..Settings::default() };
     assert_eq!(attack.validate().unwrap_err().key, "waves");
 }
