@@ -26,4 +26,4 @@ pub use metrics::Metrics;
 pub use record::{Compute, Event, Record, RobotRecord, Trace, TraceBody};
 pub use settings::{Cooperation, Dealing, Formation, PlayKind, Settings, Swap};
 pub use simulation::{CallBudget, Simulation, SimulationError, simulate};
-pub use team::{Task, Team, TeamSettings, View};
+pub use team::{Origin, Task, Team, TeamError, TeamSettings, View};

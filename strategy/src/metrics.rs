@@ -34,12 +34,18 @@ pub struct Metrics {
     pub stuck_s: f64,
     /// Mean distance of own robots to their places in the formation, in metres, where there is one.
     pub formation_error: Option<f64>,
-    /// Calls of controllers.
+    /// Calls of controllers. A robot that is ordered to halt, or whose input is unusable, is none.
     pub calls: u64,
     /// Calls whose answer was to brake: nothing was found, or there was no time left to stop later.
     pub brakes: u64,
+    /// Those of `brakes` for which there was no time left to stop later.
+    pub emergency_brakes: u64,
     /// Calls whose answer was to escape from an obstacle.
     pub escapes: u64,
+    /// How often a robot braked because it was ordered to halt.
+    pub halts: u64,
+    /// How often a robot braked because its input was unusable, or its controller's call ended in an error.
+    pub errors: u64,
     /// Work of the controllers: iterations, evaluations, collision checks.
     pub work: [u64; 3],
 }

@@ -120,6 +120,9 @@ pub struct Record {
     pub metrics: Metrics,
     /// Own robots in their order, wave by wave.
     pub robots: Vec<RobotRecord>,
+    /// The first of the errors that [`Metrics::errors`] counts.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub first_error: Option<String>,
     /// Times of the controllers.
     pub compute: Compute,
     /// For pictures.

@@ -16,7 +16,9 @@ use crate::record::Stopwatch;
 use crate::referee::Referee;
 use crate::rules::{Ball, Rules};
 use crate::team::guard;
-use crate::{Body, Metrics, Record, RobotRecord, Settings, Task, Team, TeamSettings, Trace, TraceBody, View, draw};
+use crate::{
+    Body, Metrics, Origin, Record, RobotRecord, Settings, Task, Team, TeamSettings, Trace, TraceBody, View, draw,
+};
 
 /// A robot has arrived where it is no further from its goal, in metres, and slower, in m/s. It is counted as if it went on
 /// as quickly as it can until it stands there, so that nobody gains by this and nobody beats the least time.
@@ -109,6 +111,7 @@ pub struct Simulation {
     /// Sum of distances to places in the formation, and how many.
     formation: (f64, u64),
     metrics: Metrics,
+    first_error: Option<String>,
     stopwatch: Stopwatch,
     traced: bool,
     trace: Trace,
@@ -157,7 +160,7 @@ impl Simulation {
             seed: seed ^ 0x5eed_0f7e_a3b1_2c4d,
             rng,
             play,
-            team: Team::new(team_settings, guards),
+            team: Team::new(team_settings, guards)?,
             referee: Referee::new(n, opponents.len()),
             goals: own.iter().map(|state| state.position).collect(),
             asked: Vec::new(),
@@ -181,6 +184,7 @@ impl Simulation {
             stuck: 0.0,
             formation: (0.0, 0),
             metrics: Metrics::default(),
+            first_error: None,
             stopwatch: Stopwatch::new(1e6 * settings.period()),
             traced: true,
             trace: Trace { period_s: PICTURES, bodies: sides, ..Trace::default() },
@@ -402,14 +406,25 @@ impl Simulation {
         use planner_control::Safety;
         let team = &self.team;
         let metrics = &mut self.metrics;
-        metrics.calls += team.answers().len() as u64;
+        metrics.calls += team.call_times.len() as u64;
+        if self.first_error.is_none() {
+            self.first_error = team.errors.first().map(|(robot, error)| format!("robot {robot}: {error}"));
+        }
         for (spent, work) in
             metrics.work.iter_mut().zip([team.work.iterations, team.work.evaluations, team.work.collision_checks])
         {
             *spent += work;
         }
         for (i, (answer, before)) in team.answers().iter().zip(team.before()).enumerate() {
-            metrics.brakes += u64::from(answer.safety == Safety::Brake);
+            match team.origins[i] {
+                Origin::Controller => metrics.brakes += u64::from(answer.safety == Safety::Brake),
+                Origin::EmergencyBrake => {
+                    metrics.brakes += 1;
+                    metrics.emergency_brakes += 1;
+                }
+                Origin::Halt => metrics.halts += 1,
+                Origin::Error => metrics.errors += 1,
+            }
             metrics.escapes += u64::from(answer.safety == Safety::Escape);
             let apart = |t: &f64| {
                 let [new, old] = [answer, before].map(|a| a.trajectory.state(*t).position);
@@ -481,7 +496,8 @@ impl Simulation {
             ..self.metrics
         };
         self.trace.events = events;
-        Record { metrics, robots, compute: self.stopwatch.compute(), trace: self.trace }
+        let (first_error, compute) = (self.first_error, self.stopwatch.compute());
+        Record { metrics, robots, first_error, compute, trace: self.trace }
     }
 }
 

@@ -141,7 +141,10 @@ fn simulation(m: &Manner, settings: &Settings, random: &mut Random) -> (Moving, 
         formation_error: None,
         calls: frames * n as u64,
         brakes: u64::from(collisions) * 7,
+        emergency_brakes: u64::from(collisions) * 5,
         escapes: u64::from(collisions) * 2,
+        halts: 0,
+        errors: 0,
         work: [0; 3],
     };
     let misses = if 8.0 * m.call_us > 16_000.0 { frames / 3 } else { 0 };

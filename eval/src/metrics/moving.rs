@@ -27,7 +27,7 @@ const fn timed(name: &'static str, definition: &'static str, value: fn(&Moving) 
 }
 
 /// The metrics of a simulation, in the order of `simulations.csv`. All but calls are as the referee saw them.
-pub const MOVING: [MovingMetric; 34] = [
+pub const MOVING: [MovingMetric; 37] = [
     counted("duration_s", "s", "simulated time: until all had arrived, at most the scene's", |m| {
         Some(m.metrics.duration_s)
     }),
@@ -87,11 +87,22 @@ pub const MOVING: [MovingMetric; 34] = [
     counted("formation_error", "m", "mean distance of robots to their places, where there is a formation", |m| {
         m.metrics.formation_error
     }),
-    counted("calls", "count", "calls of controllers", |m| Some(m.metrics.calls as f64)),
+    counted("calls", "count", "calls of controllers; a robot that is ordered to halt is none", |m| {
+        Some(m.metrics.calls as f64)
+    }),
     counted("brakes", "count", "calls answered by braking: nothing was found, or no time left to stop later", |m| {
         Some(m.metrics.brakes as f64)
     }),
+    counted("emergency_brakes", "count", "those of brakes for which there was no time left to stop later", |m| {
+        Some(m.metrics.emergency_brakes as f64)
+    }),
     counted("escapes", "count", "calls answered by escaping from an obstacle", |m| Some(m.metrics.escapes as f64)),
+    counted("halts", "count", "times that a robot braked because it was ordered to halt", |m| {
+        Some(m.metrics.halts as f64)
+    }),
+    counted("errors", "count", "times that a robot braked because its input or its controller was in error", |m| {
+        Some(m.metrics.errors as f64)
+    }),
     counted("iterations", "count", "iterations of the controllers' outer loops", |m| Some(m.metrics.work[0] as f64)),
     counted("evaluations", "count", "evaluations of the controllers' own objectives", |m| {
         Some(m.metrics.work[1] as f64)

@@ -57,7 +57,7 @@ pub struct Moving {
 impl Moving {
     /// The parts of a simulation's record: this, and its trace.
     pub fn of(record: Record) -> (Self, Trace) {
-        let Record { metrics, robots, compute, trace } = record;
+        let Record { metrics, robots, compute, trace, .. } = record;
         (Self { metrics, compute, robots }, trace)
     }
 }
