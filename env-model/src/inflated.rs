@@ -2,7 +2,8 @@
 //! segment, polygon) and a distance that must be kept from it.
 
 use crate::geometry::{
-    closest_point, point_segment_distance, point_segment_distance_squared, segment_segment_distance, segments_nearer_than,
+    closest_point, point_segment_distance, point_segment_distance_squared, segment_segment_distance,
+    segments_nearer_than,
 };
 use crate::{Aabb, Point, Polygon, Vector};
 
