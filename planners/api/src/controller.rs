@@ -91,7 +91,8 @@ pub enum ControlError {
 pub trait Controller: Send {
     /// Writes the robot's motion from now on into `trajectory`, whose buffer is reused.
     ///
-    /// Keeps the robot's limits to 1e-9 relative; a robot above its speed limit brakes down to it.
+    /// It begins in the robot's state, is finite, and keeps the robot's limits to 1e-9 relative; a robot above its speed
+    /// limit brakes down to it.
     ///
     /// # Errors
     /// [`ControlError`] for input that it cannot treat; failing to find a way is [`Outcome::NotFound`].

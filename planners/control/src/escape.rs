@@ -51,9 +51,10 @@ pub(crate) fn nearest_accepted(
         return Some(p);
     }
     let epsilon = world.epsilon();
-    let shapes = || world.obstacles().iter().chain(movers.iter().map(|m| &m.shape));
+    // Its tree finds quickly what a candidate lies in.
+    let all = world.with_obstacles(movers.iter().map(|mover| mover.shape.clone()));
     // Nothing further away can be free of a field; without one the furthest obstacle is left behind.
-    let extent = shapes().fold(world.extent(), |all, shape| all.union(shape.aabb()));
+    let extent = all.obstacles().iter().fold(world.extent(), |extent, shape| extent.union(shape.aabb()));
     let furthest = (p - extent.centre()).norm() + extent.diagonal();
     let (mut tried, mut reach) = (f64::NEG_INFINITY, (furthest * FIRST).max(epsilon));
     let mut parts = Vec::new();
@@ -61,7 +62,7 @@ pub(crate) fn nearest_accepted(
     loop {
         parts.clear();
         candidates.clear();
-        for shape in shapes() {
+        for shape in all.obstacles() {
             if shape.point_clearance(p) <= reach {
                 borders(shape, epsilon, &mut parts);
             }
@@ -86,7 +87,7 @@ pub(crate) fn nearest_accepted(
         }
         // Ties in the order of the obstacles.
         candidates.sort_by(|a, b| a.0.total_cmp(&b.0));
-        if let Some((_, q)) = candidates.iter().find(|(_, q)| free(*q) && accepts(*q)) {
+        if let Some((_, q)) = candidates.iter().find(|(_, q)| all.point_free(*q) && free(*q) && accepts(*q)) {
             return Some(*q);
         }
         if reach > furthest || !furthest.is_finite() {

@@ -190,7 +190,7 @@ fn unequal_decelerations_do_not_collide() {
         let robot = |i: usize| {
             let angle = std::f64::consts::TAU * (i as f64 + 0.02 * (k * (i + 1)) as f64) / 4.0;
             let at = Point::new(2.0 * angle.cos(), 2.0 * angle.sin());
-            (State::at_rest(at), Point::new(-at.x, -at.y), if i % 2 == 0 { 4.0 } else { 1.5 })
+            (State::at_rest(at), Point::new(-at.x, -at.y), if i.is_multiple_of(2) { 4.0 } else { 1.5 })
         };
         let mut robots = Robots::new(&[robot(0), robot(1), robot(2), robot(3)]);
         for frame in 0..240 {
