@@ -127,7 +127,7 @@ pub enum Origin {
 
 /// A robot's way is kept only where it is still on it: within these, in metres and m/s.
 const ON_TRACK: [f64; 2] = [0.01, 0.05];
-/// A goal that moved by less is the same goal, in metres.
+/// A goal that moved by less is the same goal, in metres: so far from it a robot may stand.
 const SAME_GOAL: f64 = 0.01;
 /// A way is kept only within the limits of now, but for this, relative: rounding.
 const WITHIN_LIMITS: f64 = 1e-6;
@@ -201,6 +201,9 @@ impl Team {
     }
 
     /// Gives a robot another controller, from the next frame on. Its motion goes on: the next answer starts from it.
+    ///
+    /// # Panics
+    /// If there is no such robot.
     pub fn swap(&mut self, robot: usize, guard: Guard) {
         self.guards[robot] = guard;
     }
