@@ -6,7 +6,7 @@
 use planner_catalogue::api::{Budget, Run, Situation};
 use planner_catalogue::build_controller_str;
 use planner_catalogue::control::{Answer, Guard};
-use planner_catalogue::env_model::motion::{Limits, Mover, Path, Side, State, Trajectory, least_time};
+use planner_catalogue::env_model::motion::{Limits, Mover, Path, Side, State, Trajectory, brake, least_time};
 use planner_catalogue::env_model::{Point, Scene, Vector, World};
 
 const RADIUS: f64 = 0.09;
@@ -66,13 +66,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 robot.guard = by_name(&second)?;
             }
         }
+        // All plan from one moment: mates before them move as they have just said, those after them are taken to brake, and
+        // opponents to go on.
+        let mut ways = vec![Trajectory::default(); robots.len()];
+        robots.iter().zip(&mut ways).for_each(|(robot, way)| brake(robot.state, limits, way));
         for i in 0..robots.len() {
-            // Mates as they said they would move, opponents as they move now.
-            let ways: Vec<Trajectory> = robots.iter().map(|r| r.answer.trajectory.clone()).collect();
             let mates = robots.iter().zip(&ways).enumerate().filter(|(j, _)| *j != i);
             let mates = mates.map(|(_, (mate, way))| {
-                let path = if frame == 0 { Path::Velocity(Vector::zeros()) } else { Path::Trajectory(way) };
-                Mover::disc(mate.state.position, 2.0 * RADIUS, path, Side::Mate)
+                Mover::disc(mate.state.position, 2.0 * RADIUS, Path::Trajectory(way), Side::Mate)
             });
             let others = opponents.iter().map(|o| {
                 let at = o.position + o.velocity * time;
@@ -82,10 +83,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let Robot { state, goal, guard, answer } = &mut robots[i];
             let situation = Situation::new(&world, &movers, *state, *goal, limits, HORIZON, PERIOD)?;
             let budget = Budget { iterations: Some(400), ..Budget::default() };
-            guard.answer(&situation, &mut Run::new(u64::from(frame)).with_budget(budget), answer)?;
-            *state = answer.trajectory.state(PERIOD);
-            answer.trajectory.advance(PERIOD);
+            let seed = u64::from(frame) << 8 | i as u64;
+            guard.answer(&situation, &mut Run::new(seed).with_budget(budget), answer)?;
+            ways[i].copy_from(&answer.trajectory);
         }
+        robots.iter_mut().for_each(|robot| robot.state = robot.answer.trajectory.state(PERIOD));
         if frame % 30 == 0 {
             let words = robots.iter().map(|r| {
                 let Point { coords: p } = r.state.position;

@@ -168,7 +168,7 @@ fn accelerated_motions_agree_with_conservative_advancement() {
         let (w, other) = (draw.direction() * draw.between(0.0, 2.0), motion(&mut draw, Point::new(1.0, 1.0)));
         let path = if draw.below(2) == 0 { Path::Velocity(w) } else { Path::Trajectory(&other) };
         let other = matches!(path, Path::Trajectory(_)).then_some(&other);
-        let mover = Mover { shape: world.obstacles()[0].clone(), path, margin: 0.0, side: Side::Mate };
+        let mover = Mover { shape: world.obstacles()[0].clone(), path, margin: 0.0, side: Side::Mate, braking: None };
         let until = draw.between(0.5, 3.0);
         let margin = if draw.below(2) == 0 { 0.0 } else { 0.1 };
 

@@ -8,7 +8,7 @@ use env_model::motion::{
     Follower, Limits, MotionError, Mover, Path, Piece, Side, State, Trajectory, axis, bang_bang, brake, first_contact,
     least_clearance, least_time,
 };
-use env_model::{Obstacle, Point, Vector, World};
+use env_model::{Core, Inflated, Obstacle, Point, Vector, World};
 
 fn on_field(draw: &mut Draw) -> Point {
     Point::new(draw.between(-6.0, 6.0), draw.between(-4.5, 4.5))
@@ -156,9 +156,44 @@ fn numbers_that_no_robot_has_are_typed_errors() {
         assert!(disc(0.0, 1.0, Path::Velocity(Vector::new(0.0, bad))).check().is_err());
         assert!(disc(0.0, 1.0, still).with_margin(bad).check().is_err());
     }
-    let disc = Mover::disc(Point::origin(), -1.0, Path::Velocity(Vector::zeros()), Side::Other);
-    assert!(disc.check().is_err());
-    assert!(Mover { shape: env_model::Inflated { radius: 1.0, ..disc.shape }, margin: -0.1, ..disc }.check().is_err());
+    let still = Path::Velocity(Vector::zeros());
+    let disc = |radius: f64| Mover::disc(Point::origin(), radius, still, Side::Other);
+    let says = |mover: Mover<'_>| mover.check().unwrap_err().to_string();
+    for radius in [-1.0, 0.0] {
+        assert_eq!(says(disc(radius)), format!("radius = {radius}; expected a finite number above 0"));
+        assert_eq!(
+            says(disc(1.0).with_braking(radius)),
+            format!("braking = {radius}; expected a finite number above 0")
+        );
+    }
+    assert_eq!(says(disc(1.0).with_margin(-0.1)), "margin = -0.1; expected a finite number, at least 0");
+    // What has an extent of its own need not be grown.
+    let wall = |radius| Mover {
+        shape: Inflated { core: Core::Segment(Point::origin(), Point::new(1.0, 0.0)), radius },
+        ..disc(1.0)
+    };
+    assert_eq!(wall(0.0).check(), Ok(()));
+    assert_eq!(says(wall(-1.0)), "radius = -1; expected a finite number, at least 0");
+}
+
+#[test]
+fn a_movers_whole_trajectory_is_checked() {
+    let check = |spoil: fn(&mut Trajectory)| {
+        let mut way = Trajectory::new(State::at_rest(Point::new(0.5, 0.0)));
+        way.push(1.0, Vector::x());
+        spoil(&mut way);
+        Mover::disc(Point::new(0.5, 0.0), 0.18, Path::Trajectory(&way), Side::Mate).check()
+    };
+    assert_eq!(check(|_| {}), Ok(()));
+    let not_finite = |spoil, name| match check(spoil) {
+        Err(MotionError::NotFinite { what, .. }) => assert_eq!(what, name),
+        other => panic!("{name}: {other:?}"),
+    };
+    not_finite(|way| way.push(1.0, Vector::new(f64::NAN, 0.0)), "acceleration");
+    not_finite(|way| way.push(1.0, Vector::new(0.0, f64::INFINITY)), "acceleration");
+    not_finite(|way| way.end_at(State::at_rest(Point::new(f64::NAN, 0.0))), "position");
+    let endless = check(|way| way.push(f64::INFINITY, Vector::zeros()));
+    assert!(matches!(endless, Err(MotionError::Negative { what: "duration", .. })), "{endless:?}");
 }
 
 /// Whatever is unchecked and absurd: an answer, or none, but no panic and no endless loop.
@@ -206,8 +241,13 @@ fn absurd_numbers_do_no_harm() {
         }
         let other = out.clone();
         for path in [Path::Velocity(velocity), Path::Trajectory(&other)] {
-            let movers =
-                world.obstacles().iter().map(|shape| Mover { shape: shape.clone(), path, margin, side: Side::Mate });
+            let movers = world.obstacles().iter().map(|shape| Mover {
+                shape: shape.clone(),
+                path,
+                margin,
+                side: Side::Mate,
+                braking: None,
+            });
             let movers: Vec<Mover<'_>> = movers.collect();
             let _ = first_contact(&out, &world, &movers, 3.0);
             let _ = least_clearance(&out, &movers[case % 3], 3.0);
@@ -248,7 +288,13 @@ fn in_steady_state_nothing_is_allocated() {
     let movers: Vec<Mover<'_>> = world
         .obstacles()
         .iter()
-        .map(|shape| Mover { shape: shape.clone(), path: Path::Velocity(Vector::x()), margin: 0.1, side: Side::Mate })
+        .map(|shape| Mover {
+            shape: shape.clone(),
+            path: Path::Velocity(Vector::x()),
+            margin: 0.1,
+            side: Side::Mate,
+            braking: None,
+        })
         .collect();
     let mut all = |draw: &mut Draw| {
         let state = State { position: path[0], velocity: draw.direction() * draw.between(0.0, 4.0) };

@@ -1,7 +1,8 @@
-//! Tests that cross crates: every planner of the catalogue against the contract, golden experiments, and what families promise.
+//! Tests that cross crates: every planner and every controller of the catalogue against its contract, golden experiments, and what families promise.
 
 mod allocation;
 mod contract;
+mod controllers;
 mod golden;
 mod optimum;
 mod rrt;

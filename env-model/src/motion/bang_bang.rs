@@ -14,14 +14,24 @@ const STEPS: usize = 60;
 /// Difference of the axes' arrivals, over their sum, at which the search ends: a robot's clock is not as good.
 const TOGETHER: f64 = 1e-13;
 
+/// Goes on from where `trajectory` ends now, as hard as possible, until its velocity is `to`.
+pub fn change_velocity(trajectory: &mut Trajectory, to: Vector, limits: Limits) {
+    let change = to - trajectory.end().velocity;
+    let size = change.norm();
+    if size > 0.0 {
+        trajectory.push(size / limits.acceleration, change * (limits.acceleration / size));
+    }
+}
+
 /// Brakes as hard as possible from where `trajectory` ends now until it stands.
-pub(super) fn stop(trajectory: &mut Trajectory, limits: Limits) {
+pub fn stop(trajectory: &mut Trajectory, limits: Limits) {
     slow_down(trajectory, 0.0, limits);
     let end = trajectory.end();
     trajectory.end_at(State::at_rest(end.position));
 }
 
-pub(super) fn slow_down(trajectory: &mut Trajectory, to: f64, limits: Limits) {
+/// Brakes as hard as possible, straight on, from where `trajectory` ends now until it is no faster than `to`.
+pub fn slow_down(trajectory: &mut Trajectory, to: f64, limits: Limits) {
     let v = trajectory.end().velocity;
     let speed = v.norm();
     if speed > to {
@@ -154,6 +164,26 @@ mod tests {
         let middle = out.state(0.5 * out.duration()).position;
         assert!((middle - nalgebra::center(&from, &goal)).norm() < 1e-9);
         assert_eq!(out.end(), State::at_rest(goal));
+    }
+
+    #[test]
+    fn velocities_change_as_fast_as_they_can() {
+        let limits = Limits::new(2.0, 5.0).unwrap();
+        let start = State { position: Point::origin(), velocity: Vector::new(0.0, 3.0) };
+        let mut out = Trajectory::new(start);
+        slow_down(&mut out, limits.speed, limits);
+        // 1 m/s at 5 m/s²; a change by (1.5, −2) is 2.5 long.
+        assert!((out.duration() - 0.2).abs() < 1e-15 && (out.end().velocity.y - 2.0).abs() < 1e-15);
+        change_velocity(&mut out, Vector::new(1.5, 0.0), limits);
+        assert!((out.duration() - 0.7).abs() < 1e-15, "{}", out.duration());
+        assert!((out.end().velocity - Vector::new(1.5, 0.0)).norm() < 1e-15, "a few roundings");
+        assert!((out.pieces()[1].acceleration - Vector::new(3.0, -4.0)).norm() < 1e-14, "a few roundings");
+        stop(&mut out, limits);
+        assert!((out.duration() - 1.0).abs() < 1e-15 && out.end().velocity == Vector::zeros());
+        let pieces = out.pieces().len();
+        change_velocity(&mut out, Vector::zeros(), limits);
+        stop(&mut out, limits);
+        assert_eq!(out.pieces().len(), pieces, "nothing to change");
     }
 
     #[test]

@@ -62,7 +62,7 @@ impl Follower {
     /// is one that ends at its start: there the robot brakes and comes back.
     pub fn follow(&mut self, path: &[Point], state: State, limits: Limits, world: &World, out: &mut Trajectory) {
         out.begin(state);
-        super::bang_bang::slow_down(out, limits.speed, limits);
+        super::slow_down(out, limits.speed, limits);
         let start = out.end();
         let goal = path.last().copied().unwrap_or(state.position);
         let speed = start.velocity.norm();
@@ -72,7 +72,7 @@ impl Follower {
                 self.profile.load(&[goal, goal]);
             }
             if !self.join(start, speed, limits, world, out) {
-                super::bang_bang::stop(out, limits);
+                super::stop(out, limits);
                 let (turned, back) = (out.end().position, path.first().copied().unwrap_or(goal));
                 self.profile.load(&[turned, back]);
                 self.go(limits, world, out);

@@ -1,5 +1,7 @@
 //! What a robot can do.
 
+use crate::Vector;
+
 /// Bounds on speed and acceleration, the same in every direction (an omnidirectional robot).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
@@ -22,7 +24,15 @@ pub enum MotionError {
         /// Its value.
         value: f64,
     },
-    /// A position or velocity is NaN or infinite.
+    /// A number that must be 0 or more, and finite, is not.
+    #[error("{what} = {value}; expected a finite number, at least 0")]
+    Negative {
+        /// What it is.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A position, velocity or acceleration is NaN or infinite.
     #[error("{what} ({x}, {y}) is not finite")]
     NotFinite {
         /// What it is.
@@ -41,6 +51,22 @@ impl MotionError {
     /// [`MotionError::NotPositive`] names it.
     pub fn positive(what: &'static str, value: f64) -> Result<f64, Self> {
         if value.is_finite() && value > 0.0 { Ok(value) } else { Err(Self::NotPositive { what, value }) }
+    }
+
+    /// `value`, if it is finite and not negative.
+    ///
+    /// # Errors
+    /// [`MotionError::Negative`] names it.
+    pub fn not_negative(what: &'static str, value: f64) -> Result<f64, Self> {
+        if value.is_finite() && value >= 0.0 { Ok(value) } else { Err(Self::Negative { what, value }) }
+    }
+
+    /// `v`, if it is finite.
+    ///
+    /// # Errors
+    /// [`MotionError::NotFinite`] names it.
+    pub fn finite(what: &'static str, v: Vector) -> Result<Vector, Self> {
+        if v.x.is_finite() && v.y.is_finite() { Ok(v) } else { Err(Self::NotFinite { what, x: v.x, y: v.y }) }
     }
 }
 

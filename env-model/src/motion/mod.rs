@@ -16,7 +16,7 @@ mod mover;
 pub mod polynomial;
 mod trajectory;
 
-pub use bang_bang::{bang_bang, brake};
+pub use bang_bang::{bang_bang, brake, change_velocity, slow_down, stop};
 pub use bound::least_time;
 pub use contact::{Contact, Touched, first_contact, least_clearance};
 pub use follow::{Follower, follow};

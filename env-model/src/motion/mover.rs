@@ -1,7 +1,7 @@
 //! Obstacles that move.
 
 use super::{MotionError, Trajectory};
-use crate::{Inflated, Point, Vector};
+use crate::{Core, Inflated, Point, Vector};
 
 /// Whose a moving obstacle is: who gives way, and how far it can be trusted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,12 +35,14 @@ pub struct Mover<'a> {
     pub margin: f64,
     /// Whose it is.
     pub side: Side,
+    /// How hard it can brake, in units per second², > 0; `None` where nobody knows: as hard as the robot that sees it.
+    pub braking: Option<f64>,
 }
 
 impl<'a> Mover<'a> {
     /// A disc: robots and balls. `radius` is the sum of both radii.
     pub fn disc(centre: Point, radius: f64, path: Path<'a>, side: Side) -> Self {
-        Self { shape: Inflated { core: crate::Core::Point(centre), radius }, path, margin: 0.0, side }
+        Self { shape: Inflated { core: Core::Point(centre), radius }, path, margin: 0.0, side, braking: None }
     }
 
     /// The same with a margin.
@@ -49,24 +51,32 @@ impl<'a> Mover<'a> {
         Self { margin, ..self }
     }
 
-    /// Checks that its numbers are usable: shape, margin and velocity.
+    /// The same with a known braking deceleration.
+    #[must_use]
+    pub fn with_braking(self, braking: f64) -> Self {
+        Self { braking: Some(braking), ..self }
+    }
+
+    /// Checks that its numbers are usable: shape, margin, braking, and all of its path. A disc has a radius above 0.
     ///
     /// # Errors
     /// [`MotionError`] names what is not.
     pub fn check(&self) -> Result<(), MotionError> {
-        let finite = |what, x: f64, y: f64| match x.is_finite() && y.is_finite() {
-            true => Ok(()),
-            false => Err(MotionError::NotFinite { what, x, y }),
+        match self.shape.core {
+            Core::Point(_) => MotionError::positive("radius", self.shape.radius)?,
+            _ => MotionError::not_negative("radius", self.shape.radius)?,
         };
-        MotionError::positive("radius", self.shape.radius)?;
-        if !(self.margin.is_finite() && self.margin >= 0.0) {
-            return Err(MotionError::NotPositive { what: "margin", value: self.margin });
+        MotionError::not_negative("margin", self.margin)?;
+        if let Some(braking) = self.braking {
+            MotionError::positive("braking", braking)?;
         }
         let aabb = self.shape.aabb();
-        finite("shape", aabb.min.x, aabb.min.y)?;
-        finite("shape", aabb.max.x, aabb.max.y)?;
-        let v = self.velocity();
-        finite("velocity", v.x, v.y)
+        MotionError::finite("shape", aabb.min.coords)?;
+        MotionError::finite("shape", aabb.max.coords)?;
+        match self.path {
+            Path::Velocity(velocity) => MotionError::finite("velocity", velocity).map(|_| ()),
+            Path::Trajectory(trajectory) => trajectory.check(),
+        }
     }
 
     /// Its velocity now.

@@ -23,11 +23,8 @@ impl State {
     /// # Errors
     /// [`MotionError::NotFinite`] names what is not.
     pub fn finite(self) -> Result<Self, MotionError> {
-        for (what, v) in [("position", self.position.coords), ("velocity", self.velocity)] {
-            if !(v.x.is_finite() && v.y.is_finite()) {
-                return Err(MotionError::NotFinite { what, x: v.x, y: v.y });
-            }
-        }
+        MotionError::finite("position", self.position.coords)?;
+        MotionError::finite("velocity", self.velocity)?;
         Ok(self)
     }
 }
@@ -208,6 +205,19 @@ impl Trajectory {
             begin += piece.duration;
             (at, piece)
         })
+    }
+
+    /// Checks that all its numbers are finite.
+    ///
+    /// # Errors
+    /// [`MotionError`] names what is not.
+    pub fn check(&self) -> Result<(), MotionError> {
+        for piece in &self.pieces {
+            MotionError::not_negative("duration", piece.duration)?;
+            State { position: piece.position, velocity: piece.velocity }.finite()?;
+            MotionError::finite("acceleration", piece.acceleration)?;
+        }
+        self.end.finite().map(|_| ())
     }
 
     /// The greatest speed and the greatest acceleration on the way.

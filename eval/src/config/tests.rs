@@ -448,7 +448,7 @@ fn mistakes_in_moving_scenes_are_named_with_their_place() {
         (
             "{ play = \"circle-swap\" }",
             "{ play = \"circle\" }",
-            "c.toml:2:21: unknown variant `circle`, expected one of",
+            "c.toml:2:20: unknown variant `circle`, expected one of",
         ),
         ("{ play = \"circle-swap\" }", "{}", "c.toml:2:11: a scene without play; expected a moving scene such as"),
         ("{ play = \"circle-swap\" }", "\"a.toml\"", "c.toml:2:11: found string; expected a moving scene such as"),
@@ -458,7 +458,7 @@ fn mistakes_in_moving_scenes_are_named_with_their_place() {
         ("\"busy\"", "\"circle-swap-4\"", "c.toml:2:37: a second scene named \"circle-swap-4\""),
         ("robots = 4", "robots = 0", "c.toml:4:10: robots = 0; expected 1 to 16"),
         ("at_s = 1.0", "at_s = -1.0", "c.toml:5:8: swap.at_s = -1"),
-        ("planner = \"tangent\"", "planner = \"tangents\"", "c.toml:5:32: planner \"tangents\": unknown planner"),
+        ("planner = \"tangent\"", "planner = \"tangents\"", "c.toml:5:33: planner \"tangents\": unknown planner"),
         ("[planner.straight-line]", "[planner.straight]", "c.toml:6:10: unknown planner \"straight\"; expected one of"),
         (
             "time_ms = 2.0 }",

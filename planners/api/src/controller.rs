@@ -41,9 +41,8 @@ impl<'a> Situation<'a> {
         period: f64,
     ) -> Result<Self, ControlError> {
         state.finite()?;
-        if !(goal.x.is_finite() && goal.y.is_finite()) {
-            return Err(MotionError::NotFinite { what: "goal", x: goal.x, y: goal.y }.into());
-        }
+        MotionError::finite("goal", goal.coords)?;
+        Limits::new(limits.speed, limits.acceleration)?;
         MotionError::positive("prediction horizon", horizon)?;
         MotionError::positive("period", period)?;
         for (i, mover) in movers.iter().enumerate() {

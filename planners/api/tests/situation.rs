@@ -46,6 +46,14 @@ fn unusable_numbers_are_named() {
         assert!(refusal(state, goal, &[], bad, 0.016).is_some_and(|r| r.contains("prediction horizon")));
         assert!(refusal(state, goal, &[], 2.0, bad).is_some_and(|r| r.contains("period")));
     }
+    for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let [mut slow, mut weak] = [Limits::new(3.0, 3.0).unwrap(); 2];
+        (slow.speed, weak.acceleration) = (bad, bad);
+        for (limits, what) in [(slow, "speed limit"), (weak, "acceleration limit")] {
+            let refused = Situation::new(&world(), &[], state, goal, limits, 2.0, 0.016).err().map(|e| e.to_string());
+            assert!(refused.as_ref().is_some_and(|r| r.contains(what)), "{bad}: {refused:?}");
+        }
+    }
     let flat = [Mover::disc(Point::origin(), 0.0, Path::Velocity(Vector::zeros()), Side::Other)];
     let world = world();
     let refused = Situation::new(&world, &flat, state, goal, Limits::new(3.0, 3.0).unwrap(), 2.0, 0.016);

@@ -4,9 +4,8 @@
 //! its limits allow, holds it for one period, and brakes: more a reactive robot does not know. Near the goal it wishes
 //! to be no faster than it can brake from; where nothing repels there it goes straight to the goal and stands.
 
-use env_model::geometry::closest_point;
-use env_model::motion::{Mover, Side, State, Trajectory, bang_bang};
-use env_model::{Aabb, Core, Inflated, Point, Vector};
+use env_model::motion::{Mover, Side, Trajectory, bang_bang, change_velocity, slow_down, stop};
+use env_model::{Aabb, Point, Vector};
 use planner_api::{ControlError, Controller, Outcome, Run, SettingError, Situation};
 
 use crate::formation::oriented;
@@ -41,7 +40,7 @@ impl Behaviour {
         steering.noise(noise.next(parameters.noise_steps, seed));
         let seen = Aabb { min: here, max: here }.inflated(parameters.obstacle_sphere);
         world.for_each_overlapping(&seen, |i| {
-            let (clearance, away) = clearance(&world.obstacles()[i], here);
+            let (clearance, away) = world.obstacles()[i].clearance_direction(here);
             steering.obstacle(clearance, away);
         });
         if let Some(field) = world.inner_field() {
@@ -53,7 +52,7 @@ impl Behaviour {
             }
         }
         for mover in movers {
-            let (clearance, away) = clearance(&mover.shape, here);
+            let (clearance, away) = mover.shape.clearance_direction(here);
             match mover.side {
                 Side::Mate | Side::Opponent => steering.robot(clearance - mover.margin, away),
                 Side::Other => steering.obstacle(clearance - mover.margin, away),
@@ -88,52 +87,16 @@ impl Controller for Behaviour {
         let (speed, most) = (wished.norm(), libm::sqrt(2.0 * limits.acceleration * left));
         let wished = if speed > most { wished * (most / speed) } else { wished };
         trajectory.begin(state);
-        let speed = state.velocity.norm();
-        if speed > limits.speed {
-            slow_down(trajectory, limits.speed, limits.acceleration);
-        }
-        let change = wished - trajectory.end().velocity;
-        let size = change.norm();
-        if size > 0.0 {
-            trajectory.push(size / limits.acceleration, change * (limits.acceleration / size));
-        }
+        slow_down(trajectory, limits.speed, limits);
+        change_velocity(trajectory, wished, limits);
         trajectory.push(period, Vector::zeros());
-        slow_down(trajectory, 0.0, limits.acceleration);
-        let end = trajectory.end().position;
-        trajectory.end_at(State::at_rest(end));
+        stop(trajectory, limits);
         Ok(Outcome::Partial)
     }
 
     fn reset(&mut self) {
         self.noise = Noise::default();
     }
-}
-
-/// Goes on straight, braking down to `speed`.
-fn slow_down(trajectory: &mut Trajectory, speed: f64, acceleration: f64) {
-    let v = trajectory.end().velocity;
-    let now = v.norm();
-    if now > speed {
-        trajectory.push((now - speed) / acceleration, v * (-acceleration / now));
-    }
-}
-
-/// Clearance of `p` to `shape`, and the unit vector away from the nearest point of its core.
-fn clearance(shape: &Inflated, p: Point) -> (f64, Vector) {
-    let nearest = match &shape.core {
-        Core::Point(c) => *c,
-        Core::Segment(a, b) => closest_point(p, *a, *b),
-        Core::Polygon(polygon) => {
-            let to = |(a, b): (Point, Point)| closest_point(p, a, b);
-            let nearer = |a: &Point, b: &Point| (a - p).norm_squared().total_cmp(&(b - p).norm_squared());
-            polygon.sides().map(to).min_by(nearer).unwrap_or(p)
-        }
-    };
-    let clearance = shape.point_clearance(p);
-    // Inside the core the nearest way out leads through its border.
-    let away = if clearance < -shape.radius { nearest - p } else { p - nearest };
-    let distance = away.norm();
-    (clearance, if distance > 0.0 { away / distance } else { Vector::x() })
 }
 
 /// Who takes which slot: the source numbers its robots; here each finds its own from where all stand.
@@ -181,7 +144,7 @@ impl Pairing {
 
 #[cfg(test)]
 mod tests {
-    use env_model::motion::{Limits, Path};
+    use env_model::motion::{Limits, Path, State};
     use env_model::{Scene, World};
 
     use super::*;
@@ -277,20 +240,6 @@ mod tests {
         };
         assert_eq!(y(None), 0.0);
         assert!(y(Some(Formation::Line)) > 0.05, "the mate is too far aside");
-    }
-
-    #[test]
-    fn clearance_leads_out_of_every_shape() {
-        let p = |x: f64, y: f64| Point::new(x, y);
-        let square = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]].map(Point::from).to_vec();
-        let square = Inflated { core: Core::Polygon(env_model::Polygon::new(square).unwrap()), radius: 0.5 };
-        assert_eq!(clearance(&square, p(7.0, 8.0)), (4.5, Vector::new(0.6, 0.8)));
-        assert_eq!(clearance(&square, p(1.0, 2.0)), (-1.5, -Vector::x()), "from inside the core");
-        let wall = Inflated { core: Core::Segment(p(0.0, 0.0), p(4.0, 0.0)), radius: 0.5 };
-        assert_eq!(clearance(&wall, p(2.0, -2.0)), (1.5, -Vector::y()));
-        let disc = Inflated { core: Core::Point(p(1.0, 1.0)), radius: 2.0 };
-        assert_eq!(clearance(&disc, p(4.0, 5.0)), (3.0, Vector::new(0.6, 0.8)));
-        assert_eq!(clearance(&disc, p(1.0, 1.0)), (-2.0, Vector::x()), "on the very centre any way is as good");
     }
 
     #[test]

@@ -41,6 +41,14 @@ impl Default for Weights {
 /// they wish, as in Balch & Arkin's simulation, unless `acceleration` says otherwise. Opponents give no way, and what
 /// collides goes on.
 ///
+/// The control law is that of [`Behaviour`](crate::Behaviour), but for three things:
+///
+/// - the field's border bounds where things start and turns opponents only: it neither repels the team nor counts as a
+///   collision, since formations start and end at the very border; to the controller it is an obstacle;
+/// - robots keep no margins but those of the parameters; the controller keeps each mover's own margin besides;
+/// - formations are kept up to the goal, which has a place for each; the controller, whose goal is its own alone, leaves
+///   the formation at one spacing from it.
+///
 /// The numbers of the thesis's experiments are lost: the defaults are ours, a division B field of the Small Size
 /// League (2026) and moderate speeds.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

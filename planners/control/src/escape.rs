@@ -7,8 +7,11 @@
 use env_model::motion::Mover;
 use env_model::{Core, Inflated, Point, Vector, World};
 
-/// How often the reach doubles before giving up: from a billionth of the way across to all of it.
-const DOUBLINGS: usize = 48;
+/// The first reach, over the furthest that anything is: about a billionth.
+const FIRST: f64 = 1.0 / (1u64 << 30) as f64;
+
+/// So many points of a circle are tried from its centre, to which all are equally near.
+const ROUND: usize = 8;
 
 /// A part of the border of free space.
 #[derive(Debug, Clone, Copy)]
@@ -18,24 +21,47 @@ enum Part {
     Line(Point, Vector),
 }
 
+impl Part {
+    fn distance(self, p: Point) -> f64 {
+        match self {
+            Self::Circle(c, r) => ((p - c).norm() - r).abs(),
+            Self::Line(o, u) => env_model::geometry::cross(u, p - o).abs(),
+        }
+    }
+}
+
 /// The nearest point to `p` that is free of `world` and of the movers as they are now; `p` itself where it is free.
 /// A little outside of what it leaves, by the world's ε. `None` where there is no free point.
 pub fn nearest_free(world: &World, movers: &[Mover<'_>], p: Point) -> Option<Point> {
+    nearest_accepted(world, movers, p, Vector::x(), |_| true)
+}
+
+/// The nearest of the candidates that are free and that `accepts` agrees to, which is asked in the order of their
+/// distances; `p` itself where it is free. From the centre of a circle, to which all its points are equally near, that
+/// in the direction of the unit vector `towards` comes first.
+pub(crate) fn nearest_accepted(
+    world: &World,
+    movers: &[Mover<'_>],
+    p: Point,
+    towards: Vector,
+    mut accepts: impl FnMut(Point) -> bool,
+) -> Option<Point> {
     let free = |q: Point| world.point_free(q) && movers.iter().all(|m| m.shape.point_clearance(q) >= 0.0);
     if free(p) {
         return Some(p);
     }
-    let (extent, epsilon) = (world.extent(), world.epsilon());
+    let epsilon = world.epsilon();
+    let shapes = || world.obstacles().iter().chain(movers.iter().map(|m| &m.shape));
     // Nothing further away can be free of a field; without one the furthest obstacle is left behind.
-    let middle = extent.min + extent.size() * 0.5;
-    let furthest = (p - middle).norm() + extent.diagonal() + movers.iter().map(|m| m.shape.radius).fold(0.0, f64::max);
-    let mut reach = furthest * 2f64.powi(-(DOUBLINGS as i32) + 18).max(epsilon);
+    let extent = shapes().fold(world.extent(), |all, shape| all.union(shape.aabb()));
+    let furthest = (p - extent.centre()).norm() + extent.diagonal();
+    let (mut tried, mut reach) = (f64::NEG_INFINITY, (furthest * FIRST).max(epsilon));
     let mut parts = Vec::new();
     let mut candidates: Vec<(f64, Point)> = Vec::new();
-    for _ in 0..DOUBLINGS {
+    loop {
         parts.clear();
         candidates.clear();
-        for shape in world.obstacles().iter().chain(movers.iter().map(|m| &m.shape)) {
+        for shape in shapes() {
             if shape.point_clearance(p) <= reach {
                 borders(shape, epsilon, &mut parts);
             }
@@ -47,27 +73,28 @@ pub fn nearest_free(world: &World, movers: &[Mover<'_>], p: Point) -> Option<Poi
                 parts.push(Part::Line(corner, along));
             }
         }
-        let mut consider = |q: Point| {
-            let d = (q - p).norm();
-            if d <= reach {
+        parts.retain(|part| part.distance(p) <= reach);
+        let mut consider = |q: Point, d: f64| {
+            if d > tried && d <= reach {
                 candidates.push((d, q));
             }
         };
         for (i, a) in parts.iter().enumerate() {
-            feet(*a, p, &mut consider);
+            feet(*a, p, towards, &mut consider);
+            let mut consider = |q: Point| consider(q, (q - p).norm());
             parts[..i].iter().for_each(|b| crossings(*a, *b, &mut consider));
         }
         // Ties in the order of the obstacles.
         candidates.sort_by(|a, b| a.0.total_cmp(&b.0));
-        if let Some((_, q)) = candidates.iter().find(|(_, q)| free(*q)) {
+        if let Some((_, q)) = candidates.iter().find(|(_, q)| free(*q) && accepts(*q)) {
             return Some(*q);
         }
-        if reach > furthest {
+        if reach > furthest || !furthest.is_finite() {
             return None;
         }
+        tried = reach;
         reach *= 2.0;
     }
-    None
 }
 
 /// The circles and lines that a shape's border is made of, `epsilon` further out.
@@ -98,16 +125,29 @@ fn borders(shape: &Inflated, epsilon: f64, parts: &mut Vec<Part>) {
     }
 }
 
-/// The points of a part at which its distance to `p` is extreme.
-fn feet(part: Part, p: Point, consider: &mut impl FnMut(Point)) {
+/// The points of a part at which its distance to `p` is extreme, with their distances.
+fn feet(part: Part, p: Point, towards: Vector, consider: &mut impl FnMut(Point, f64)) {
     match part {
         Part::Circle(c, r) => {
             let d = p - c;
-            let out = if d.norm() > 0.0 { d.normalize() } else { Vector::x() };
-            consider(c + out * r);
-            consider(c - out * r);
+            let away = d.norm();
+            if away > 0.0 {
+                let out = d / away;
+                consider(c + out * r, (r - away).abs());
+                consider(c - out * r, r + away);
+                return;
+            }
+            let mut out = towards;
+            for _ in 0..ROUND {
+                consider(c + out * r, r);
+                // An eighth of a turn.
+                out = Vector::new(out.x - out.y, out.x + out.y) * std::f64::consts::FRAC_1_SQRT_2;
+            }
         }
-        Part::Line(o, u) => consider(o + u * (p - o).dot(&u)),
+        Part::Line(o, u) => {
+            let foot = o + u * (p - o).dot(&u);
+            consider(foot, (foot - p).norm());
+        }
     }
 }
 

@@ -5,10 +5,16 @@
 //!
 //! A motion *can be stopped* if after its first period, the one that is followed for certain, the robot can brake
 //! straight on without touching anything until it stands: nothing that stands still, and no mover. A mover with a
-//! trajectory is taken to brake after the period as well, one with a velocity either to go on or to brake now. If all robots of a team move so, planning one
-//! after the other, each seeing the new trajectories of those before it and the braking of those after it, then
-//! braking is always free and nobody is ever hit, by induction over the frames (passive motion safety; Macek,
-//! Vasquez Govea, Fraichard & Siegwart 2009).
+//! trajectory is taken to brake after the period as well, one with a velocity either to go on or to brake now, each
+//! with its own deceleration. If all robots of a team move so, planning one after the other, each seeing the new
+//! trajectories of those before it and the braking of those after it, then braking is always free and no mate is ever
+//! hit, by induction over the frames (passive motion safety; Macek, Vasquez Govea, Fraichard & Siegwart 2009).
+//!
+//! The induction needs what it is made of: mates that are predicted by their trajectories, follow them exactly and are
+//! all seen in every frame; decelerations that are known and do not fall from frame to frame; and a first frame in which
+//! all could brake. It says nothing of opponents, nothing of mates that overlap already, until they are apart, and holds
+//! where braking is free of what stands still, too: what appears in front of a robot may leave it no answer that avoids
+//! both, and then the [guard](crate::Guard) puts off the first contact of all.
 
 use env_model::motion::contact::{enters_world, meets};
 use env_model::motion::{Limits, Mover, Path, Piece, Side, State, Trajectory, brake};
@@ -37,7 +43,7 @@ pub struct Foresight {
 impl Foresight {
     /// Looks at a new moment.
     pub fn begin(&mut self, situation: &Situation<'_>) {
-        let Situation { movers, state, limits, period, .. } = *situation;
+        let Situation { movers, state, period, .. } = *situation;
         self.margins.clear();
         self.margins.extend(movers.iter().map(|mover| {
             let room = mover.shape.point_clearance(state.position) * KEPT;
@@ -49,6 +55,8 @@ impl Foresight {
         }
         self.stops.resize_with(movers.len().max(self.stops.len()), Trajectory::default);
         for (mover, stop) in movers.iter().zip(&mut self.stops) {
+            let mut limits = situation.limits;
+            limits.acceleration = mover.braking.unwrap_or(limits.acceleration);
             match mover.path {
                 Path::Trajectory(trajectory) => stop_after(trajectory, period, limits, &mut self.leg, stop),
                 Path::Velocity(velocity) => brake(State { position: Point::origin(), velocity }, limits, stop),
@@ -77,20 +85,37 @@ impl Foresight {
     /// Whether the robot could stop after the first period of `trajectory` without touching what stands still or a
     /// mate. Opponents are left out: to stand does not help against one who keeps coming.
     pub fn can_stop(&mut self, situation: &Situation<'_>, trajectory: &Trajectory) -> bool {
-        self.stops(situation, trajectory, |side| side == Side::Mate)
+        self.stops(situation, trajectory, true, |mover| mover.side == Side::Mate)
     }
 
     /// The same without touching anybody.
     pub fn can_stop_for_all(&mut self, situation: &Situation<'_>, trajectory: &Trajectory) -> bool {
-        self.stops(situation, trajectory, |_| true)
+        self.stops(situation, trajectory, true, |_| true)
     }
 
-    fn stops(&mut self, situation: &Situation<'_>, trajectory: &Trajectory, heeded: impl Fn(Side) -> bool) -> bool {
+    /// Whether neither `trajectory`, nor stopping after its first period, touches a mate, but for those that the robot
+    /// overlaps now. What stands still is left out.
+    pub fn spares_mates(&mut self, situation: &Situation<'_>, trajectory: &Trajectory) -> bool {
+        let Situation { movers, state, horizon, .. } = *situation;
+        let apart = |mover: &Mover<'_>| mover.side == Side::Mate && mover.shape.point_clearance(state.position) >= 0.0;
+        let mut mates = movers.iter().filter(|mover| apart(mover));
+        mates.all(|mate| meets(trajectory, mate, 0.0, horizon).is_none())
+            && self.stops(situation, trajectory, false, apart)
+    }
+
+    fn stops(
+        &mut self,
+        situation: &Situation<'_>,
+        trajectory: &Trajectory,
+        heeds_world: bool,
+        heeds: impl Fn(&Mover<'_>) -> bool,
+    ) -> bool {
         let Situation { world, movers, limits, period, .. } = *situation;
         let mut stop = std::mem::take(&mut self.stop);
         stop_after(trajectory, period, limits, &mut self.leg, &mut stop);
-        let mut movers = movers.iter().enumerate().filter(|(_, mover)| heeded(mover.side));
-        let free = world_contact(&stop, world).is_infinite() && movers.all(|(i, mover)| self.avoids(i, mover, &stop));
+        let mut movers = movers.iter().enumerate().filter(|(_, mover)| heeds(mover));
+        let free = (!heeds_world || world_contact(&stop, world).is_infinite())
+            && movers.all(|(i, mover)| self.avoids(i, mover, &stop));
         self.stop = stop;
         free
     }

@@ -1,6 +1,6 @@
 //! Whatever the world and the controller, the answer is safe and says what it is.
 
-use env_model::motion::{Limits, Mover, Path, Side, State, Trajectory, bang_bang, contact};
+use env_model::motion::{Limits, Mover, Path, Side, State, Trajectory, bang_bang, brake, contact};
 use env_model::scene::Field;
 use env_model::{Obstacle, Point, Scene, Shape, Vector, World};
 use planner_api::{ControlError, Controller, Outcome, PlanError, Run, Situation};
@@ -129,6 +129,85 @@ fn every_answer_is_safe_or_says_that_it_is_not() {
     assert!(seen.iter().all(|n| *n > 20), "every kind of answer came up: {seen:?}");
 }
 
+/// Does as it is told.
+struct Says<F>(F);
+
+impl<F: FnMut(&Situation<'_>, &mut Trajectory) + Send> Controller for Says<F> {
+    fn control(&mut self, s: &Situation<'_>, _: &mut Run<'_>, t: &mut Trajectory) -> Result<Outcome, ControlError> {
+        (self.0)(s, t);
+        Ok(Outcome::Arrives)
+    }
+}
+
+#[test]
+fn what_cannot_be_driven_is_answered_with_the_brakes() {
+    let scene = Scene {
+        name: "open".into(),
+        unit: "m".into(),
+        robot_radius: 0.09,
+        start: [-1.0, 0.0],
+        goal: [1.0, 0.0],
+        field: None,
+        obstacles: vec![],
+    };
+    let world = World::new(&scene).unwrap();
+    let limits = Limits::new(3.0, 3.0).unwrap();
+    let ask = |speed: f64, says: fn(&Situation<'_>, &mut Trajectory)| {
+        let state = State { position: Point::new(-1.0, 0.5), velocity: Vector::new(speed, 0.0) };
+        let goal = Point::new(1.0, 0.0);
+        let situation = Situation::new(&world, &[], state, goal, limits, 2.0, 1.0 / 60.0).unwrap();
+        let mut answer = Answer::default();
+        Guard::new(Box::new(Says(says))).answer(&situation, &mut Run::new(1), &mut answer).unwrap();
+        if answer.safety == Safety::Brake {
+            let mut stop = Trajectory::default();
+            brake(state, limits, &mut stop);
+            assert_eq!(answer.trajectory, stop);
+        }
+        answer.safety
+    };
+    let faults: [fn(&Situation<'_>, &mut Trajectory); 10] = [
+        |s, t| {
+            t.begin(s.state);
+            t.push(1.0, Vector::new(f64::NAN, 0.0));
+        },
+        |s, t| {
+            t.begin(s.state);
+            t.push(f64::INFINITY, Vector::zeros());
+        },
+        |s, t| {
+            t.begin(s.state);
+            t.end_at(State::at_rest(Point::new(f64::INFINITY, 0.0)));
+        },
+        |_, t| t.begin(State::at_rest(Point::new(50.0, 50.0))),
+        |s, t| bang_bang(State { position: s.state.position + Vector::x() * 1e-6, ..s.state }, s.goal, s.limits, t),
+        |s, t| bang_bang(State { velocity: s.state.velocity + Vector::y() * 1e-6, ..s.state }, s.goal, s.limits, t),
+        |s, t| bang_bang(s.state, s.goal, Limits::new(3.0, 3.0 * (1.0 + 1e-5)).unwrap(), t),
+        // A second at 3 m/s² and a little from rest, and so too fast in the end.
+        |s, t| {
+            brake(s.state, s.limits, t);
+            t.push(1.0 + 1e-5, Vector::x() * 3.0);
+        },
+        // Slower, and then faster again.
+        |s, t| {
+            t.begin(s.state);
+            t.push(0.2, s.state.velocity.normalize() * -3.0);
+            t.push(0.9, s.state.velocity.normalize() * 3.0);
+        },
+        |s, t| {
+            t.begin(s.state);
+            t.push(1e-3, Vector::new(1e6, 0.0));
+        },
+    ];
+    for (i, says) in faults.into_iter().enumerate() {
+        for speed in [1.0, 3.5] {
+            assert_eq!(ask(speed, says), Safety::Brake, "{i} at {speed}");
+        }
+    }
+    for speed in [0.0, 3.0, 3.5] {
+        assert_eq!(ask(speed, |s, t| bang_bang(s.state, s.goal, s.limits, t)), Safety::Ok, "{speed}");
+    }
+}
+
 #[test]
 fn the_nearest_free_point_is_the_nearest() {
     let mut rng = ChaCha8Rng::seed_from_u64(2);
@@ -173,13 +252,6 @@ fn brakes_put_off_what_is_due() {
         obstacles: vec![Obstacle::disc(Point::new(1.0, 0.0), 0.3)],
     })
     .unwrap();
-    struct Straight;
-    impl Controller for Straight {
-        fn control(&mut self, s: &Situation<'_>, _: &mut Run<'_>, t: &mut Trajectory) -> Result<Outcome, ControlError> {
-            bang_bang(s.state, s.goal, s.limits, t);
-            Ok(Outcome::Arrives)
-        }
-    }
     let limits = Limits::new(3.0, 3.0).unwrap();
     // 0.51 m before contact. 1.7 m/s stop within 0.48 m, after another sixtieth of a second's acceleration not; 1.5 m/s
     // can be braked a period later too; 2 m/s need 0.67 m.
@@ -187,7 +259,7 @@ fn brakes_put_off_what_is_due() {
     let ask = |speed: f64, brake: bool| {
         let situation = Situation::new(&world, &[], at(speed), Point::new(2.0, 0.0), limits, 2.0, 0.016).unwrap();
         let mut answer = Answer::default();
-        Guard::new(Box::new(Straight))
+        Guard::new(Box::new(Says(|s: &Situation<'_>, t: &mut Trajectory| bang_bang(s.state, s.goal, s.limits, t))))
             .with_emergency_brake(brake)
             .answer(&situation, &mut Run::new(1), &mut answer)
             .unwrap();

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use env_model::motion::{State, Trajectory, bang_bang};
+use env_model::motion::{Limits, State, Trajectory, bang_bang, change_velocity, stop};
 use env_model::{Vector, geometry};
 use planner_api::{ControlError, Controller, Outcome, Run, SettingError, Situation};
 
@@ -91,12 +91,12 @@ impl DynamicWindow {
             run.spent.evaluations += 1;
             let margin = self.settings.margin;
             let danger = |trial: &Trajectory, until| first_contact(trial, situation, margin, until);
-            ramp(state, velocity, limits.acceleration, &mut self.trial);
-            stop(limits.acceleration, &mut self.trial);
+            ramp(state, velocity, limits, &mut self.trial);
+            stop(&mut self.trial, limits);
             let contact = danger(&self.trial, self.trial.duration());
             let admissible = contact.is_none();
             let value = contact.unwrap_or_else(|| {
-                ramp(state, velocity, limits.acceleration, &mut self.trial);
+                ramp(state, velocity, limits, &mut self.trial);
                 let clearance = danger(&self.trial, horizon).map_or(1.0, |t| t / horizon);
                 worth + self.settings.clearance * clearance
             });
@@ -124,23 +124,9 @@ fn worth(settings: &DynamicWindowSettings, situation: &Situation<'_>, w: Vector)
 }
 
 /// From `state` to `velocity` as fast as possible, into `out`.
-fn ramp(state: State, velocity: Vector, acceleration: f64, out: &mut Trajectory) {
+fn ramp(state: State, velocity: Vector, limits: Limits, out: &mut Trajectory) {
     out.begin(state);
-    let change = velocity - state.velocity;
-    let size = change.norm();
-    if size > 0.0 {
-        out.push(size / acceleration, change * (acceleration / size));
-    }
-}
-
-/// Brakes to a stop where `out` ends.
-fn stop(acceleration: f64, out: &mut Trajectory) {
-    let v = out.end().velocity;
-    let speed = v.norm();
-    if speed > 0.0 {
-        out.push(speed / acceleration, v * (-acceleration / speed));
-    }
-    out.end_at(State::at_rest(out.end().position));
+    change_velocity(out, velocity, limits);
 }
 
 impl Controller for DynamicWindow {
@@ -158,8 +144,8 @@ impl Controller for DynamicWindow {
         }
         self.sample(situation);
         let velocity = self.choose(situation, run);
-        ramp(state, velocity, limits.acceleration, trajectory);
-        stop(limits.acceleration, trajectory);
+        ramp(state, velocity, limits, trajectory);
+        stop(trajectory, limits);
         Ok(Outcome::Partial)
     }
 }

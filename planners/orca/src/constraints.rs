@@ -12,10 +12,14 @@ use crate::program::HalfPlane;
 ///
 /// u is the least change that takes the relative velocity out of (or to the border of) the velocity obstacle of
 /// horizon τ. A mate is expected to take over its share of it; anyone else nothing, and all of u is ours. Any shape is
-/// seen as the disc round the nearest point of its core. Where robots touch already, τ is one period, as in RVO2.
+/// seen as the disc round the nearest point of its core; from inside a polygon, as the disc round the mirror image of
+/// that point, which leads out by the same way. Where robots touch already, τ is one period, as in RVO2.
 pub fn of_mover(mover: &Mover<'_>, state: State, horizon: f64, period: f64, settings: &OrcaSettings) -> HalfPlane {
-    let to = nearest_of_core(&mover.shape.core, state.position) - state.position;
-    let (distance, contact) = (to.norm(), mover.shape.radius);
+    let (clearance, away) = mover.shape.clearance_direction(state.position);
+    // To the core, or from inside a polygon to its border.
+    let distance = (clearance + mover.shape.radius).abs();
+    let contact = distance - clearance;
+    let to = away * -distance;
     // Robots that are nearer than their margin are not to come nearer yet.
     let radius = (contact * (1.0 + settings.margin) + mover.margin).min(distance.max(contact));
     let relative = state.velocity - mover.velocity();
@@ -34,25 +38,6 @@ pub fn of_mover(mover: &Mover<'_>, state: State, horizon: f64, period: f64, sett
     };
     let share = if mover.side == Side::Mate { settings.mates_share } else { 1.0 };
     HalfPlane { point: state.velocity + u * share, direction }
-}
-
-/// The point of `core` nearest to `p`; the first corner where `p` is inside a polygon.
-fn nearest_of_core(core: &Core, p: Point) -> Point {
-    match core {
-        Core::Point(c) => *c,
-        Core::Segment(a, b) => closest_point(p, *a, *b),
-        Core::Polygon(polygon) => {
-            let mut nearest = (f64::INFINITY, p);
-            for (a, b) in polygon.sides() {
-                let q = closest_point(p, a, b);
-                let d = (q - p).norm_squared();
-                if d < nearest.0 {
-                    nearest = (d, q);
-                }
-            }
-            nearest.1
-        }
-    }
 }
 
 /// What stands still, in one direction.
@@ -90,7 +75,7 @@ pub fn for_each_wall(world: &World, p: Point, reach: f64, mut visit: impl FnMut(
         let Inflated { core, radius } = &world.obstacles()[i];
         match core {
             Core::Polygon(polygon) => polygon.sides().for_each(|(a, b)| part(closest_point(p, a, b), *radius)),
-            core => part(nearest_of_core(core, p), *radius),
+            core => part(core.nearest(p), *radius),
         }
     });
     if let Some(field) = world.inner_field() {
@@ -134,6 +119,23 @@ mod tests {
         let end = plane(Side::Other, Vector::new(1.1, 0.0), Vector::zeros());
         assert!((end.point - Vector::new(1.0, 0.0)).norm() < 1e-14, "{}", end.point);
         assert!(end.violation(Vector::new(0.9, 5.0)) < 0.0 && end.violation(Vector::new(1.2, -5.0)) > 0.0);
+    }
+
+    #[test]
+    fn from_inside_a_polygon_the_nearest_way_leads_out() {
+        let square = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]].map(Point::from).to_vec();
+        let shape = Inflated { core: Core::Polygon(env_model::Polygon::new(square).unwrap()), radius: 0.5 };
+        let mover = Mover { shape, path: Path::Velocity(Vector::zeros()), margin: 0.0, side: Side::Other };
+        let see = |x: f64| {
+            let state = State { position: Point::new(x, 2.0), velocity: Vector::zeros() };
+            of_mover(&mover, state, 2.0, 0.1, &OrcaSettings { margin: 0.0, ..OrcaSettings::default() })
+        };
+        // 0.5 before the left side and 0.5 of radius: out by 1 within the period of 0.1, to the left.
+        for (x, towards) in [(0.5, -1.0), (3.5, 1.0), (-0.25, -1.0)] {
+            let plane = see(x);
+            assert!(plane.violation(Vector::new(11.0 * towards, 0.0)) < 0.0, "{x}: {plane:?}");
+            assert!(plane.violation(Vector::zeros()) > 0.0 && plane.violation(Vector::new(-9.0 * towards, 0.0)) > 0.0);
+        }
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The controller.
 
 use env_model::Vector;
-use env_model::motion::{Limits, State, Trajectory, bang_bang};
+use env_model::motion::{Limits, State, Trajectory, bang_bang, change_velocity, stop};
 use planner_api::seed::splitmix64;
 use planner_api::{ControlError, Controller, Outcome, Run, SettingError, Situation};
 
@@ -106,11 +106,7 @@ impl Orca {
     ) {
         let Situation { limits, period, .. } = *situation;
         trajectory.begin(state);
-        let change = velocity - state.velocity;
-        let size = change.norm();
-        if size > 0.0 {
-            trajectory.push(size / limits.acceleration, change * (limits.acceleration / size));
-        }
+        change_velocity(trajectory, velocity, limits);
         // The period itself is promised; who is still too fast holds nothing.
         let speed = velocity.norm();
         let ramp = trajectory.duration();
@@ -118,9 +114,6 @@ impl Orca {
             let hold = (self.held(velocity, limits, horizon) - ramp).max(period - ramp);
             trajectory.push(hold, Vector::zeros());
         }
-        if speed > 0.0 {
-            trajectory.push(speed / limits.acceleration, velocity * (-limits.acceleration / speed));
-        }
-        trajectory.end_at(State::at_rest(trajectory.end().position));
+        stop(trajectory, limits);
     }
 }

@@ -20,7 +20,7 @@
 //! Source: S. S. Ge & Y. J. Cui, *Dynamic motion planning for mobile robots using potential field method*, Autonomous
 //! Robots 13:207–222, 2002, DOI 10.1023/A:1020564024509.
 
-use env_model::motion::{State, Trajectory, bang_bang};
+use env_model::motion::{Limits, State, Trajectory, bang_bang};
 use env_model::{Aabb, Inflated, Vector};
 use planner_api::{ControlError, Controller, Outcome, Run, SettingError, Situation};
 use serde::{Deserialize, Serialize};
@@ -154,21 +154,27 @@ impl Controller for MovingPotentialField {
         let wanted = force * limits.acceleration;
         let size = wanted.norm();
         let acceleration = if size > limits.acceleration { wanted * (limits.acceleration / size) } else { wanted };
-        push_on(state, acceleration, situation, period, trajectory);
+        push_on(state, acceleration, limits, period, trajectory);
         Ok(Outcome::Partial)
     }
 }
 
 /// `acceleration` for one period, less where the robot would become too fast, and then the brakes.
-fn push_on(state: State, acceleration: Vector, situation: &Situation<'_>, period: f64, out: &mut Trajectory) {
-    let limits = situation.limits;
+fn push_on(state: State, acceleration: Vector, limits: Limits, period: f64, out: &mut Trajectory) {
     out.begin(state);
     if state.velocity.norm() <= limits.speed {
         let then = state.velocity + acceleration * period;
         let speed = then.norm();
-        // The nearest permitted velocity is no further than the one asked for.
-        let then = if speed > limits.speed { then * (limits.speed / speed) } else { then };
-        out.push(period, (then - state.velocity) / period);
+        if speed > limits.speed {
+            // The nearest permitted velocity is no further than the one asked for, but for rounding, which counts when
+            // divided by a short period.
+            let change = then * (limits.speed / speed) - state.velocity;
+            let size = change.norm();
+            let rate = if size > limits.acceleration * period { limits.acceleration / size } else { period.recip() };
+            out.push(period, change * rate);
+        } else {
+            out.push(period, acceleration);
+        }
     }
     let v = out.end().velocity;
     let speed = v.norm();
@@ -218,6 +224,23 @@ mod tests {
         assert_eq!(field.repulsion(0.3, 0.4, n, Vector::new(0.1, 0.0)), Vector::zeros());
         // Nearer by b = ½: the same distance, faster.
         assert!(field.repulsion(0.3, 0.4, n, Vector::new(1.0, 0.0)).x < 0.0);
+    }
+
+    #[test]
+    fn short_periods_keep_the_limits() {
+        let limits = Limits::new(3.0, 2.0).unwrap();
+        let mut out = Trajectory::default();
+        for period in [1.0, 1e-3, 1e-9, 1e-12, 1e-15, 1e-18, 1e-300, 1e-320] {
+            for i in 0..50 {
+                let (along, across) = (f64::from(i) * 0.7, f64::from(i) * 1.1);
+                let velocity = Vector::new(along.cos(), along.sin()) * (3.0 * (1.0 - 1e-16 * f64::from(i)));
+                let push = Vector::new(across.cos(), across.sin()) * 2.0;
+                push_on(State { position: env_model::Point::origin(), velocity }, push, limits, period, &mut out);
+                let peaks = out.peaks();
+                assert!(peaks.acceleration <= 2.0 * (1.0 + 1e-9), "{period} {i}: {peaks:?}");
+                assert!(peaks.speed <= 3.0 * (1.0 + 1e-9), "{period} {i}: {peaks:?}");
+            }
+        }
     }
 
     #[test]

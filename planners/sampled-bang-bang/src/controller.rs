@@ -51,7 +51,7 @@ impl SampledBangBang {
         }
     }
 
-    /// The star of intermediate destinations, then random ones.
+    /// The star of intermediate destinations, random ones, and the wider star where nothing has arrived.
     fn search(&mut self, call: &mut Call<'_, '_, '_>) {
         let Self { settings, memory, frame, trial } = self;
         let Situation { state, goal, limits, .. } = *call.situation;
@@ -83,6 +83,17 @@ impl SampledBangBang {
                     trial.via(via + off(angle, SPREAD * distance), &[switch], call);
                 }
                 _ => trial.via(state.position + off(angle, farthest * distance), &[latest * time], call),
+            }
+        }
+        for share in &settings.far {
+            for i in 0..settings.directions {
+                if call.arrives() || !call.run.allows(1) {
+                    return;
+                }
+                let angle = heading + TAU * i as f64 / settings.directions as f64;
+                let distance = share * towards.norm();
+                // After d/v a motion from rest over at least v²/a begins to brake.
+                trial.via(state.position + off(angle, distance / unit), &[distance / limits.speed], call);
             }
         }
     }
@@ -118,5 +129,45 @@ impl Controller for SampledBangBang {
     fn reset(&mut self) {
         self.memory = None;
         self.frame = 0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use env_model::motion::{Limits, State};
+    use env_model::{Obstacle, Point, Scene, World};
+
+    use super::*;
+
+    #[test]
+    fn a_slow_robot_gets_round_what_is_large() {
+        // The ball's distance in STOP, half a metre, at its speed: v²/a is 0.7 m.
+        let ball = Obstacle::disc(Point::origin(), 0.5);
+        let world = World::new(&Scene {
+            name: "stop".into(),
+            unit: "m".into(),
+            robot_radius: 0.09,
+            start: [-2.7, 0.0],
+            goal: [2.7, 0.0],
+            field: None,
+            obstacles: vec![ball],
+        })
+        .unwrap();
+        let limits = Limits::new(1.45, 3.0).unwrap();
+        let (period, goal) = (1.0 / 60.0, Point::new(2.7, 0.0));
+        for (seed, y) in [-0.1, 0.0, 0.1].into_iter().enumerate() {
+            let mut state = State::at_rest(Point::new(-2.7, y));
+            let mut controller = SampledBangBang::new(SampledBangBangSettings::default()).unwrap();
+            let mut trajectory = Trajectory::default();
+            // Straight it would take 5.4/1.45 + 1.45/3 = 4.2 s; half as much again.
+            for frame in 0..380 {
+                let situation = Situation::new(&world, &[], state, goal, limits, 2.0, period).unwrap();
+                let mut run = Run::new(1000 * seed as u64 + frame);
+                let outcome = controller.control(&situation, &mut run, &mut trajectory).unwrap();
+                assert_eq!(outcome, Outcome::Arrives, "frame {frame} from y = {y}");
+                state = trajectory.state(period);
+            }
+            assert_eq!(state, State::at_rest(goal), "from y = {y}");
+        }
     }
 }

@@ -6,7 +6,7 @@
 //! 2. the way of the frame before, which others must beat by a little (hysteresis);
 //! 3. to the goal more slowly;
 //! 4. towards an intermediate destination, and from some moment on to the goal: a star of directions × distances ×
-//!    moments round the robot, then random ones, half of them near the one of the frame before;
+//!    moments round the robot, then random ones, half of them near the one of the frame before; while nothing arrives, a wider star;
 //! 5. to an intermediate destination and no further, braking on the spot among them.
 //!
 //! The best is the free one that arrives first; failing that, the free one whose end is nearest to the goal in time;
