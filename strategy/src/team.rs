@@ -302,7 +302,7 @@ impl Team {
     ) -> (Origin, bool) {
         let horizon = self.settings.horizon;
         let later = |j: usize| if j < i { &self.answers[j].trajectory } else { &self.stops[j] };
-        let movers = movers(&self.settings, i, &self.own, &self.opponents, tasks, later);
+        let movers = movers(&self.settings, i, &self.own, &self.opponents, &self.limits, later);
         let task = tasks.get(i);
         let situation = self.situation(i, view, tasks, worlds, &movers);
         let halts = task.is_some_and(|task| task.halt);
@@ -389,7 +389,7 @@ fn movers<'m>(
     i: usize,
     own: &[State],
     opponents: &[Sighting],
-    tasks: &[Task],
+    limits: &[Limits],
     way: impl Fn(usize) -> &'m Trajectory,
 ) -> Vec<Mover<'m>> {
     let radius = 2.0 * ROBOT_RADIUS;
@@ -398,11 +398,7 @@ fn movers<'m>(
             Cooperation::Independent => Path::Velocity(mate.velocity),
             Cooperation::Priority => Path::Trajectory(way(j)),
         };
-        let mate = Mover::disc(mate.position, radius, path, Side::Mate);
-        match tasks.get(j) {
-            Some(task) => mate.with_braking(task.limits.acceleration),
-            None => mate,
-        }
+        Mover::disc(mate.position, radius, path, Side::Mate).with_braking(limits[j].acceleration)
     });
     let opponents = opponents
         .iter()
