@@ -127,7 +127,7 @@ pub enum Origin {
 
 /// A robot's way is kept only where it is still on it: within these, in metres and m/s.
 const ON_TRACK: [f64; 2] = [0.01, 0.05];
-/// A goal that moved by less is the same goal, in metres.
+/// A goal that moved by less is the same goal, in metres: so far from it a robot may stand.
 const SAME_GOAL: f64 = 0.01;
 /// A way is kept only within the limits of now, but for this, relative: rounding.
 const WITHIN_LIMITS: f64 = 1e-6;
@@ -201,6 +201,9 @@ impl Team {
     }
 
     /// Gives a robot another controller, from the next frame on. Its motion goes on: the next answer starts from it.
+    ///
+    /// # Panics
+    /// If there is no such robot.
     pub fn swap(&mut self, robot: usize, guard: Guard) {
         self.guards[robot] = guard;
     }
@@ -299,7 +302,7 @@ impl Team {
     ) -> (Origin, bool) {
         let horizon = self.settings.horizon;
         let later = |j: usize| if j < i { &self.answers[j].trajectory } else { &self.stops[j] };
-        let movers = movers(&self.settings, i, &self.own, &self.opponents, tasks, later);
+        let movers = movers(&self.settings, i, &self.own, &self.opponents, &self.limits, later);
         let task = tasks.get(i);
         let situation = self.situation(i, view, tasks, worlds, &movers);
         let halts = task.is_some_and(|task| task.halt);
@@ -386,7 +389,7 @@ fn movers<'m>(
     i: usize,
     own: &[State],
     opponents: &[Sighting],
-    tasks: &[Task],
+    limits: &[Limits],
     way: impl Fn(usize) -> &'m Trajectory,
 ) -> Vec<Mover<'m>> {
     let radius = 2.0 * ROBOT_RADIUS;
@@ -395,11 +398,7 @@ fn movers<'m>(
             Cooperation::Independent => Path::Velocity(mate.velocity),
             Cooperation::Priority => Path::Trajectory(way(j)),
         };
-        let mate = Mover::disc(mate.position, radius, path, Side::Mate);
-        match tasks.get(j) {
-            Some(task) => mate.with_braking(task.limits.acceleration),
-            None => mate,
-        }
+        Mover::disc(mate.position, radius, path, Side::Mate).with_braking(limits[j].acceleration)
     });
     let opponents = opponents
         .iter()

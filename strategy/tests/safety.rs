@@ -14,7 +14,7 @@ fn any<T: Clone>(rng: &mut impl Rng, of: &[T]) -> T {
     of.choose(rng).expect("there is one").clone()
 }
 
-/// A team of equal robots that follow exactly and at once, in a play without zones that come upon it.
+/// A team of equal robots that follow exactly, at once or late, in a play without zones that come upon it.
 fn case(rng: &mut impl Rng) -> Settings {
     let duration_s = 3.0;
     let names = controller_names();
@@ -36,6 +36,7 @@ fn case(rng: &mut impl Rng) -> Settings {
         acceleration: any(rng, &[1.0, 3.0, 6.0]),
         horizon_s: any(rng, &[0.05, 0.5, 2.0]),
         margin: any(rng, &[0.0, 0.03, 0.2]),
+        latency_ms: any(rng, &[0.0, 10.0, 1e3 / 60.0, 50.0]),
         hysteresis: any(rng, &[0.0, 0.2, 1.0]),
         jitter: any(rng, &[0.0, 0.1, 0.5]),
         cooperation: Cooperation::Priority,

@@ -115,6 +115,16 @@ fn a_contact_of_braking_is_told_though_the_task_is_unusable() {
 }
 
 #[test]
+fn a_mate_without_usable_limits_is_still_in_the_way() {
+    let own = [state(2.0, 1.0, 2.0, 0.0), state(2.3, 1.0, 0.0, 0.0)];
+    let mut tasks = [task(4.0, 1.0), task(2.3, 1.0)];
+    tasks[1].limits.acceleration = NAN;
+    let mut team = team(SETTINGS, 2);
+    assert!(plan(&mut team, &own, &[], &tasks)[0].contact.is_some(), "0.12 m are too few to stop or to turn");
+    assert_eq!(team.errors.len(), 1);
+}
+
+#[test]
 fn lists_of_another_length_are_errors_of_single_robots() {
     let own = [state(2.0, 1.0, 2.0, 0.0), state(0.0, 1.0, 0.0, 1.0)];
     let tasks = [task(-2.0, 1.0), task(0.0, 2.0)];
