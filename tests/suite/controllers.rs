@@ -236,7 +236,11 @@ fn what_nobody_should_meet_is_answered_within_the_limits() {
                     match controller.control(&situation, &mut run, &mut trajectory) {
                         Ok(Outcome::NotFound) | Err(ControlError::Plan(_)) => {}
                         Ok(_) => {
-                            check_motion(&format!("{kind}, {state:?} to {goal:?}, {limits:?}"), &situation, &trajectory)
+                            check_motion(
+                                &format!("{kind}, {state:?} to {goal:?}, {limits:?}"),
+                                &situation,
+                                &trajectory,
+                            );
                         }
                         Err(error) => panic!("{kind}, {state:?} to {goal:?}, {limits:?}: {error}"),
                     }
