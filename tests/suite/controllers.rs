@@ -82,6 +82,7 @@ fn with_games(check: impl FnOnce(&[Case<'_>])) {
         path: Path::Velocity(Vector::new(-0.3, 0.1)),
         margin: 0.05,
         side: Side::Other,
+        braking: None,
     };
     let triangle = [[0.0, -0.6], [0.6, 0.0], [0.0, 0.6]].map(Point::from).to_vec();
     let shapes = [

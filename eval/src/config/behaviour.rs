@@ -49,7 +49,7 @@ pub(super) fn planner(
     source: &Source<'_>,
     kind: &str,
     kind_at: Range<usize>,
-    table: Spanned<DeTable<'_>>,
+    table: &Spanned<DeTable<'_>>,
 ) -> Result<(Maker, toml::Table), FileError> {
     if kind != "behaviour" {
         let message = format!("planner {kind:?} beside a table [behaviour]; expected kind = \"behaviour\"");
@@ -58,7 +58,7 @@ pub(super) fn planner(
     let keys: Keys = from_table(source, table.clone())?;
     let keys = match keys {
         Keys { parameters: Some(_), tune: Some(_) } => {
-            let at = span_of(&table, &[Key::Name("parameters")]);
+            let at = span_of(table, &[Key::Name("parameters")]);
             return Err(source.error_at(at, "parameters beside tune, which searches them; expected one of the two"));
         }
         Keys { parameters, tune: None } => Keys { parameters: Some(parameters.unwrap_or_default()), tune: None },
@@ -67,12 +67,12 @@ pub(super) fn planner(
     let written = toml::Table::try_from(&keys).expect("plain numbers and words");
     let maker = match keys {
         Keys { tune: Some(tuning), .. } => {
-            tuning.validate().map_err(|e| setting(source, &table, &["tune"], &e))?;
+            tuning.validate().map_err(|e| setting(source, table, &["tune"], &e))?;
             Maker::Tuning(tuning)
         }
         Keys { parameters, .. } => {
             let parameters = parameters.unwrap_or_default();
-            parameters.validate().map_err(|e| setting(source, &table, &["parameters"], &e))?;
+            parameters.validate().map_err(|e| setting(source, table, &["parameters"], &e))?;
             Maker::Parameters(parameters)
         }
     };

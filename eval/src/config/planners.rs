@@ -360,7 +360,7 @@ fn entry(
         );
     }
     if subject == Subject::Behaviour {
-        let (maker, settings) = behaviour::planner(source, &kind, kind_at, table)?;
+        let (maker, settings) = behaviour::planner(source, &kind, kind_at, &table)?;
         return Ok(PlannerEntry { label, group, varied, kind, settings, budget, limits, maker });
     }
     let places = table.clone();
