@@ -45,7 +45,9 @@ fn tell(run: &mut RunRecord, record: Record) -> Trace {
     run.gap = metrics.time_ratio().filter(|r| run.valid && r.is_finite()).map(|r| r - 1.0);
     run.clearance_min = metrics.least_clearance;
     [run.iterations, run.evaluations, run.collision_checks] = metrics.work;
-    run.time_us = moving.compute.total_us;
+    // A call's, as elsewhere: a run that lasts longer is not slower.
+    run.time_us = moving.compute.total_us / metrics.calls.max(1) as f64;
+    run.cpu_us /= metrics.calls.max(1) as f64;
     run.moving = Some(moving);
     trace
 }

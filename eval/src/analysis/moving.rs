@@ -11,7 +11,7 @@ pub struct MovingSummary {
     pub planner: String,
     /// Runs made, those that ended in an error included.
     pub runs: usize,
-    /// Runs in which all arrived and nobody touched anything.
+    /// Runs in which all arrived and nobody touched anybody or broke a rule.
     pub clean: usize,
     /// Share of robots that arrived.
     pub arrived: f64,
@@ -19,6 +19,8 @@ pub struct MovingSummary {
     pub collisions_per_minute: f64,
     /// Crash fouls a simulated minute.
     pub fouls_per_minute: f64,
+    /// Breaches of rules a simulated minute: zones and borders entered, speeds exceeded.
+    pub violations_per_minute: f64,
     /// Median over runs of arrival over least time; +∞ where half of them are not clean.
     pub time_ratio: f64,
     /// Mean switches a second and robot, by simulated time.
@@ -49,6 +51,7 @@ pub fn summarise_moving(results: &Results, planner: &str, scene: Option<&str>) -
         arrived: sum(&|m| m.metrics.arrived as f64) / sum(&|m| m.metrics.robots as f64),
         collisions_per_minute: sum(&|m| f64::from(m.metrics.collisions)) * 60.0 / seconds,
         fouls_per_minute: sum(&|m| f64::from(m.metrics.fouls)) * 60.0 / seconds,
+        violations_per_minute: sum(&|m| f64::from(m.metrics.violations)) * 60.0 / seconds,
         time_ratio: median(&ratios)?,
         switches_per_s: sum(&|m| m.metrics.switches_per_s * m.metrics.duration_s) / seconds,
         call_us: [typical(0)?, typical(1)?, moving.iter().map(|m| m.compute.call_us[3]).fold(0.0, f64::max)],

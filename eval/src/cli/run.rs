@@ -218,10 +218,12 @@ fn doubts(results: &Results) {
     }
     // 1e-9 is far above the rounding of a sum of a hundred lengths, and below any gap of interest.
     if let Some(run) = results.runs.iter().find(|r| r.gap.is_some_and(|gap| gap < -1e-9)) {
-        warn(format_args!(
-            "warning: {} found a valid path shorter than the optimum in {} (repeat {}): please report this",
-            run.planner, run.scene, run.repeat
-        ));
+        let what = match results.subject {
+            Subject::Simulation => "arrived sooner than the lower bound allows",
+            _ => "found a valid path shorter than the optimum",
+        };
+        let (planner, scene, repeat) = (&run.planner, &run.scene, run.repeat);
+        warn(format_args!("warning: {planner} {what} in {scene} (repeat {repeat}): please report this"));
     }
     let errors = results.runs.iter().filter(|r| r.error.is_some()).count();
     if errors > 0 {

@@ -6,7 +6,8 @@ use std::path::Path;
 
 use crate::error::Error;
 use crate::export;
-use crate::results::SceneSet;
+use crate::metrics::MOVING;
+use crate::results::{Results, SceneSet};
 use crate::store::{self, Store};
 
 /// Columns that depend on the machine and the moment.
@@ -74,7 +75,9 @@ impl Side {
             let results = Store::open(path)?.read()?.results;
             let manifest = &results.manifest;
             let machine = format!("{} build, {} jobs, {}", manifest.profile, manifest.jobs, manifest.cpu);
-            return Ok(Self { machine: Some(machine), ..Self::from_csv(&name, &export::runs_csv(&results))? });
+            let mut side = Self { machine: Some(machine), ..Self::from_csv(&name, &export::runs_csv(&results))? };
+            side.add_moving(&results);
+            return Ok(side);
         }
         let file = if path.is_dir() { path.join("runs.csv") } else { path.to_owned() };
         let text = fs::read_to_string(&file).map_err(Error::io("read", &file))?;
@@ -130,6 +133,18 @@ impl Side {
             }
         }
         Ok(Self { name: name.to_owned(), runs, machine: None })
+    }
+
+    /// What simulations were measured to be, all but times.
+    fn add_moving(&mut self, results: &Results) {
+        for record in &results.runs {
+            let key = (record.scene.clone(), record.planner.clone(), record.repeat);
+            if let (Some(moving), Some(run)) = (&record.moving, self.runs.get_mut(&key)) {
+                let repeating = MOVING.iter().filter(|metric| !metric.is_timing);
+                let text = |value: Option<f64>| value.map_or_else(String::new, |v| v.to_string());
+                run.counts.extend(repeating.map(|m| (format!("moving {}", m.metric.name), text((m.value)(moving)))));
+            }
+        }
     }
 
     /// Its planners.

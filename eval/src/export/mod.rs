@@ -56,9 +56,9 @@ fn put(path: &Path, text: &str) -> Result<(), Error> {
 /// Whether `folder` holds the exports of what is stored, [`Formats::OWN`]: the manifest, which is written last, and
 /// all others.
 pub fn are_made(folder: &Path, stored: &Stored) -> bool {
-    let files = ["runs.csv", "summary.csv", "paths.jsonl", "comparison.toml", "report.html"];
+    let files = ["runs.csv", "summary.csv", "comparison.toml", "report.html"];
     let more: &[&str] = match stored.results.subject {
-        Subject::Paths => &[],
+        Subject::Paths => &["paths.jsonl"],
         Subject::Simulation => &["simulations.csv", "traces.jsonl"],
         Subject::Behaviour => &["tuning.csv", "parameters.csv"],
     };
@@ -89,9 +89,10 @@ pub fn write(folder: &Path, stored: &Stored, formats: Formats, language: Languag
         }
     }
     if formats.json {
-        put("paths.jsonl", &paths_jsonl(results))?;
-        if results.subject == Subject::Simulation {
-            put("traces.jsonl", &traces_jsonl(results))?;
+        match results.subject {
+            Subject::Paths => put("paths.jsonl", &paths_jsonl(results))?,
+            Subject::Simulation => put("traces.jsonl", &traces_jsonl(results))?,
+            Subject::Behaviour => {}
         }
     }
     if formats.document {

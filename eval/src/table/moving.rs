@@ -7,7 +7,7 @@ use crate::results::{Results, RunRecord, TuningRun};
 use crate::statistics::median;
 
 /// What the figures of [`simulations`] are.
-pub const LEGEND: &str = "Clean: all arrived, nobody touched anything. Over bound: median of mean arrival over least \
+pub const LEGEND: &str = "Clean: all arrived, nobody touched anybody or broke a rule. Over bound: median of mean arrival over least \
     time, ∞ where half the runs are not clean.\nRates and shares over all simulated time. Call: medians of the runs' \
     median and 99 %, and the longest of all. Late: frames that took too long.\n";
 
@@ -19,6 +19,7 @@ pub fn simulations(results: &Results, scene: Option<&str>) -> String {
         "arrived",
         "collisions/min",
         "fouls/min",
+        "breaches/min",
         "over bound",
         "switches/s",
         "call p50",
@@ -30,9 +31,12 @@ pub fn simulations(results: &Results, scene: Option<&str>) -> String {
     framed(&header, rows.map(|s| row(&s).to_vec()))
 }
 
-fn row(s: &MovingSummary) -> [String; 11] {
-    let over =
-        if s.time_ratio.is_finite() { format!("+{}", format::percent(s.time_ratio - 1.0)) } else { "∞".into() };
+fn row(s: &MovingSummary) -> [String; 12] {
+    let over = match s.time_ratio - 1.0 {
+        over if over.is_infinite() => "∞".to_owned(),
+        over if over < 0.0 => format::percent(over),
+        over => format!("+{}", format::percent(over)),
+    };
     let [p50, p99, max] = s.call_us.map(format::time);
     [
         s.planner.clone(),
@@ -40,6 +44,7 @@ fn row(s: &MovingSummary) -> [String; 11] {
         format::percent(s.arrived),
         format::significant(s.collisions_per_minute, 3),
         format::significant(s.fouls_per_minute, 3),
+        format::significant(s.violations_per_minute, 3),
         over,
         format::significant(s.switches_per_s, 3),
         p50,
