@@ -227,9 +227,10 @@ fn quotes(evidence: &Evidence<'_>, t: &Strings) -> Vec<String> {
     quality.iter().map(|s| phrases::phrase(s, evidence, t)).collect()
 }
 
-/// Every sentence that the campaign supports: validity, then quality and time against the best.
+/// Every sentence that the campaign supports: validity, then quality and, where times compare, time against the best.
 pub fn sentences(evidence: &Evidence<'_>, t: &Strings) -> Vec<String> {
     let grid = &evidence.grid;
     let all = validity(grid).into_iter().chain(against_best(grid, &evidence.quality));
-    all.chain(against_best(grid, &evidence.times)).map(|s| phrases::phrase(&s, evidence, t)).collect()
+    let times = evidence.times_compare().then(|| against_best(grid, &evidence.times));
+    all.chain(times.into_iter().flatten()).map(|s| phrases::phrase(&s, evidence, t)).collect()
 }

@@ -3,7 +3,7 @@
 use super::language::Strings;
 use crate::analysis::pairs::Pairs;
 use crate::analysis::{Curves, Effort, Grid, Measure, counted_gap, counted_length, quality};
-use crate::results::{Results, RunRecord};
+use crate::results::{Results, RunRecord, Subject};
 use crate::statistics::median;
 use crate::statistics::median_interval::{MedianInterval, median_interval};
 
@@ -53,6 +53,11 @@ impl<'a> Evidence<'a> {
         let known = |scene: usize| grid.scenes[scene].optimum.length.unwrap_or_else(|| shortest(scene));
         let references = (0..grid.scenes.len()).map(known).collect();
         Self { results, grid, curves, quality, times, references }
+    }
+
+    /// Whether times of different planners compare: of tunings they do not, where one searches and another is given.
+    pub fn times_compare(&self) -> bool {
+        self.results.subject != Subject::Behaviour
     }
 
     /// Label of a planner.

@@ -8,7 +8,7 @@ use crate::format;
 use crate::results::{Results, RunRecord, RunStatus, SceneSet};
 
 /// Why there is no valid path, in the order of the columns.
-const REASONS: [&str; 7] = [
+const REASONS: [&str; 8] = [
     "missing_not_run",
     "status_error",
     "status_crashed",
@@ -16,19 +16,25 @@ const REASONS: [&str; 7] = [
     "status_out_of_memory",
     "missing_no_path",
     "missing_invalid",
+    "missing_violation",
 ];
 
-/// Column of a run without a valid path.
-fn reason(run: &RunRecord) -> usize {
-    match run.status {
-        RunStatus::Error => 1,
-        RunStatus::Crashed => 2,
-        RunStatus::Timeout => 3,
-        RunStatus::OutOfMemory => 4,
-        _ if run.moving.as_ref().is_some_and(|m| m.metrics.collisions + m.metrics.violations > 0) => 6,
+/// Columns of a run that is not valid; a simulation may fail in several ways at once.
+fn reasons(run: &RunRecord) -> Vec<usize> {
+    let one = match (run.status, &run.moving) {
+        (RunStatus::Error, _) => 1,
+        (RunStatus::Crashed, _) => 2,
+        (RunStatus::Timeout, _) => 3,
+        (RunStatus::OutOfMemory, _) => 4,
+        (_, Some(m)) => {
+            let m = &m.metrics;
+            let of = [(5, m.arrived < m.robots), (6, m.collisions > 0), (7, m.violations > 0)];
+            return of.into_iter().filter(|(_, so)| *so).map(|(column, _)| column).collect();
+        }
         _ if run.path.is_empty() => 5,
         _ => 6,
-    }
+    };
+    vec![one]
 }
 
 /// What lacks of one planner in one scene.
@@ -50,7 +56,7 @@ fn lacks(results: &Results) -> Vec<Lack> {
             if let Some(scene) = results.scenes.iter().position(|s| s.scene.name == run.scene) {
                 counts[scene][0] = counts[scene][0].saturating_sub(1);
                 if !run.valid {
-                    counts[scene][reason(run)] += 1;
+                    reasons(run).into_iter().for_each(|column| counts[scene][column] += 1);
                 }
             }
         }

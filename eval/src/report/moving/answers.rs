@@ -129,6 +129,7 @@ fn failure(run: &RunRecord, results: &Results, t: &Strings) -> String {
             .fill("moving_failure_touch", &[("time", &seconds(event.time_s)), ("who", &who), ("closing", &closing)]);
     }
     let (arrived, robots) = (m.metrics.arrived.to_string(), m.metrics.robots.to_string());
-    let touched = (m.metrics.collisions + m.metrics.violations).to_string();
-    t.fill("moving_failure_counts", &[("arrived", &arrived), ("robots", &robots), ("touched", &touched)])
+    let (collisions, violations) = (m.metrics.collisions.to_string(), m.metrics.violations.to_string());
+    let counts = [("arrived", &arrived), ("robots", &robots), ("collisions", &collisions), ("violations", &violations)];
+    t.fill("moving_failure_counts", &counts.map(|(key, count)| (key, count.as_str())))
 }

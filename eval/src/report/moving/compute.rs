@@ -15,8 +15,9 @@ use crate::format;
 use crate::results::{Results, RunRecord};
 use crate::statistics::median;
 
-/// A frame at 60 Hz, in microseconds; what is left of 16.7 ms after the rest of a team's program took a little.
-const FRAME_US: f64 = 16_000.0;
+/// For reference where scenes differ in their frame rates: a frame at 60 Hz, 16.7 ms, in microseconds, less a little for
+/// the rest of a team's program.
+const REFERENCE_US: f64 = 16_000.0;
 
 const ROW: f64 = 74.0;
 const TOP: f64 = 34.0;
@@ -41,6 +42,13 @@ fn over_runs(runs: &[&RunRecord], of: &dyn Fn(&Compute) -> [f64; 4]) -> Option<[
     Some([median(&column(0))?, median(&column(1))?, median(&column(2))?, greatest])
 }
 
+/// The frame rate of all scenes, in Hz; `None` where they differ or it is not known.
+fn frame_rate(results: &Results) -> Option<f64> {
+    let mut rates = results.scenes.iter().map(|s| s.simulation.as_ref().map(|s| s.frame_rate));
+    let first = rates.next()??;
+    rates.all(|rate| rate == Some(first)).then_some(first)
+}
+
 /// The figure; `None` without any run that ended.
 pub fn figure(results: &Results, by_planner: &[ByScene<'_>], id: &str, t: &Strings) -> Option<Value> {
     let row = |(index, scenes): (usize, &ByScene<'_>)| {
@@ -57,19 +65,28 @@ pub fn figure(results: &Results, by_planner: &[ByScene<'_>], id: &str, t: &Strin
     if rows.is_empty() {
         return None;
     }
+    let rate = frame_rate(results);
+    let line_us = rate.map_or(REFERENCE_US, |rate| 1e6 / rate);
     let every = || rows.iter().flat_map(|r| r.call.into_iter().chain(r.frame)).filter(|v| *v > 0.0);
-    let low = every().fold(FRAME_US / 10.0, f64::min);
-    let axis = Axis::log(low / 1.3, 1.3 * every().fold(FRAME_US, f64::max), LEFT, chart::RIGHT);
+    let low = every().fold(line_us / 10.0, f64::min);
+    let axis = Axis::log(low / 1.3, 1.3 * every().fold(line_us, f64::max), LEFT, chart::RIGHT);
     let bottom = TOP + ROW * rows.len() as f64;
-    let (title, text) = (t.get("compute_title"), t.get("compute_text"));
+    let line = match rate {
+        Some(rate) => {
+            t.fill("compute_period", &[("time", &format::time(line_us)), ("rate", &format::significant(rate, 3))])
+        }
+        None => t.fill("compute_reference", &[("time", &format::time(line_us))]),
+    };
+    let text = [t.get("compute_text"), &line].join(t.get("sentence_gap"));
+    let (title, text) = (t.get("compute_title"), text.as_str());
     let mut svg = chart::open(id, bottom + 58.0, title, text);
     svg += &chart::x_grid(&axis, TOP, bottom, &format::time);
-    let deadline = axis.at(FRAME_US);
+    let deadline = axis.at(line_us);
     let _ = write!(
         svg,
         r#"<path class="deadline" d="M{deadline:.1} {TOP}V{bottom:.1}"/><text class="middle warn" x="{deadline:.1}" y="{:.1}">{}</text><text class="axis end" x="{}" y="{:.1}">{}</text>"#,
         TOP - 10.0,
-        escape(&format::time(FRAME_US)),
+        escape(&format::time(line_us)),
         chart::RIGHT,
         bottom + 48.0,
         escape(t.get("compute_axis"))

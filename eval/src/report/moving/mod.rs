@@ -35,7 +35,7 @@ fn typical(by_scene: &ByScene<'_>, value: &dyn Fn(&RunRecord) -> Option<f64>) ->
     Some((median(&values)?, median_interval(&values).map(|i| [i.low, i.high])))
 }
 
-/// Time of arrival over the least time; +∞ unless all arrived and nobody touched anything.
+/// Time of arrival over the least time; +∞ unless all arrived, nobody touched anybody and no rule was broken.
 fn counted_ratio(run: &RunRecord) -> f64 {
     run.gap.filter(|_| run.valid).map_or(f64::INFINITY, |gap| 1.0 + gap)
 }

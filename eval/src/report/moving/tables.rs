@@ -12,27 +12,29 @@ use crate::statistics::wilson;
 /// The comparison of all planners that have runs; `by_planner` in their order.
 pub fn comparison(results: &Results, by_planner: &[ByScene<'_>], id: &str, t: &Strings) -> Value {
     let formation = results.runs.iter().filter_map(moving).any(|m| m.metrics.formation_error.is_some());
+    // By weight: the last ones need a scroll where the window is narrow.
     let mut heads = vec![
         "head_planner",
         "moving_clean",
         "moving_arrived",
-        "moving_ratio",
         "moving_collisions",
         "moving_fouls",
-        "moving_length_ratio",
-        "moving_clearance",
+        "moving_violations",
+        "moving_ratio",
         "moving_switches",
         "moving_stuck",
+        "moving_length_ratio",
+        "moving_clearance",
     ];
     heads.extend(formation.then_some("moving_formation"));
     heads.extend(["moving_brakes", "moving_escapes", "moving_misses"]);
     let heads: Vec<&str> = heads.into_iter().map(|key| t.get(key)).collect();
     let rows = by_planner.iter().enumerate().filter(|(_, scenes)| scenes.iter().any(|runs| !runs.is_empty()));
-    let rows = rows.map(|(i, scenes)| planner_row(&results.planners[i].label, i, cells(scenes, formation))).collect();
-    table(id, t.get("table_caption"), &heads, rows)
+    let rows = rows.map(|(i, scenes)| planner_row(&results.planners[i].label, i, cells(results, scenes, formation)));
+    table(id, t.get("table_caption"), &heads, rows.collect())
 }
 
-fn cells(scenes: &ByScene<'_>, formation: bool) -> Vec<Value> {
+fn cells(results: &Results, scenes: &ByScene<'_>, formation: bool) -> Vec<Value> {
     let runs: Vec<&RunRecord> = scenes.iter().flatten().copied().collect();
     let all: Vec<&Moving> = runs.iter().filter_map(|r| moving(r)).collect();
     let sum = |value: &dyn Fn(&Moving) -> f64| all.iter().map(|m| value(m)).sum::<f64>();
@@ -53,7 +55,7 @@ fn cells(scenes: &ByScene<'_>, formation: bool) -> Vec<Value> {
     let (low, high) = wilson(clean, runs.len());
     let least = all.iter().filter_map(|m| m.metrics.least_clearance).fold(f64::INFINITY, f64::min);
     let ratio = typical(scenes, &|r| Some(counted_ratio(r))).unwrap_or((f64::INFINITY, None));
-    let frames = sum(&|m| m.metrics.calls as f64 / m.metrics.robots.max(1) as f64).max(1.0);
+    let frames = frames(results, &runs).filter(|frames| *frames > 0.0);
     let misses = sum(&|m| m.compute.misses as f64);
     let mut cells = vec![
         with_small(
@@ -62,13 +64,14 @@ fn cells(scenes: &ByScene<'_>, formation: bool) -> Vec<Value> {
             format::share_interval(low, high),
         ),
         number(format::percent(arrived / robots), arrived / robots),
-        with_interval(ratio.0, ratio.1, &times),
         rate(sum(&|m| f64::from(m.metrics.collisions))),
         rate(sum(&|m| f64::from(m.metrics.fouls))),
-        middle(&|m| m.metrics.length_ratio, &times),
-        if least.is_finite() { number(millimetres(least), least) } else { none() },
+        rate(sum(&|m| f64::from(m.metrics.violations))),
+        with_interval(ratio.0, ratio.1, &times),
         middle(&|m| Some(m.metrics.switches_per_s), &|v| format::significant(v, 3)),
         middle(&|m| Some(m.metrics.stuck_s), &seconds),
+        middle(&|m| m.metrics.length_ratio, &times),
+        if least.is_finite() { number(millimetres(least), least) } else { none() },
     ];
     if formation {
         cells.push(middle(&|m| m.metrics.formation_error, &millimetres));
@@ -79,10 +82,20 @@ fn cells(scenes: &ByScene<'_>, formation: bool) -> Vec<Value> {
         with_small(
             format::count(misses),
             misses,
-            if misses > 0.0 { format::percent(misses / frames) } else { String::new() },
+            frames.filter(|_| misses > 0.0).map_or_else(String::new, |frames| format::percent(misses / frames)),
         ),
     ]);
     cells
+}
+
+/// Frames of all `runs`: what each lasted times its scene's frame rate; `None` where a rate is not known.
+fn frames(results: &Results, runs: &[&RunRecord]) -> Option<f64> {
+    let of = |run: &&RunRecord| {
+        let Some(m) = moving(run) else { return Some(0.0) };
+        let scene = results.scenes.iter().find(|s| s.scene.name == run.scene)?;
+        Some((m.metrics.duration_s * scene.simulation.as_ref()?.frame_rate).round())
+    };
+    runs.iter().map(of).sum()
 }
 
 fn none() -> Value {

@@ -212,3 +212,72 @@ fn twenty_seconds_of_eight_robots_and_ten_planners_stay_small() {
     let page = html(&big, Language::English);
     assert!(page.len() < 1_500_000, "{} bytes", page.len());
 }
+
+/// The cells of the first row of the table `id`.
+fn first_row(page: &str, id: &str) -> Vec<String> {
+    let table = page.split_once(&format!("id=\"{id}\"")).unwrap().1.split_once("</table>").unwrap().0;
+    let row = table.split_once("<tbody>").unwrap().1.split_once("</tr>").unwrap().0;
+    between(row, "<td", "</td>").iter().map(|cell| cell.split_once('>').unwrap().1.to_owned()).collect()
+}
+
+#[test]
+fn the_table_counts_violations_and_missed_frames() {
+    let mut results = results(&["a"], &["one"], 1);
+    let metrics = &mut results.runs[0].moving.as_mut().unwrap().metrics;
+    // Waves and halts: robots and calls say nothing of the frames.
+    (metrics.violations, metrics.robots, metrics.arrived, metrics.calls) = (3, 6, 6, 10);
+    results.runs[0].valid = false;
+    results.traces.clear();
+    let page = html(&results, Language::English);
+    let heads = page.split_once("id=\"overall-table\"").unwrap().1.split_once("</tr>").unwrap().0;
+    let places = ["collisions", "fouls", "violations", "time over bound", "plan changes", "stuck", "way over straight"]
+        .map(|head| heads.find(&format!(">{head}")).unwrap());
+    assert!(places.is_sorted(), "{places:?}");
+    let row = first_row(&page, "overall-table");
+    // 3 in 2 s.
+    assert_eq!(row[4], "90<small>3</small>");
+    // One of 2 s at 60 Hz.
+    assert_eq!(row.last().unwrap(), "1<small>0.833\u{a0}%</small>");
+    assert!(page.contains("contacts between robots: 0, breaches of rules: 3"));
+    results.scenes[0].simulation.as_mut().unwrap().frame_rate = 30.0;
+    assert_eq!(
+        first_row(&html(&results, Language::English), "overall-table").last().unwrap(),
+        "1<small>1.67\u{a0}%</small>"
+    );
+    results.scenes[0].simulation = None;
+    assert_eq!(first_row(&html(&results, Language::English), "overall-table").last().unwrap(), "1");
+}
+
+#[test]
+fn the_line_of_compute_is_the_period_of_all_scenes() {
+    let mut results = results(&["a"], &["one", "two"], 1);
+    for scene in &mut results.scenes {
+        scene.simulation.as_mut().unwrap().frame_rate = 30.0;
+    }
+    let page = html(&results, Language::English);
+    assert!(page.contains("33.3\u{a0}ms at 30 Hz: what is right of it misses a frame"));
+    assert!(!page.contains("reference only"));
+    results.scenes[0].simulation.as_mut().unwrap().frame_rate = 60.0;
+    let page = html(&results, Language::English);
+    assert!(page.contains("The dashed line, 16\u{a0}ms, is a reference only"));
+}
+
+#[test]
+fn a_run_that_fails_in_several_ways_is_in_several_columns() {
+    let mut results = results(&["a"], &["one"], 1);
+    let metrics = &mut results.runs[0].moving.as_mut().unwrap().metrics;
+    (metrics.arrived, metrics.collisions) = (1, 2);
+    results.runs[0].valid = false;
+    let page = html(&results, Language::English);
+    let table = page.split_once("id=\"missing-planners\"").unwrap().1.split_once("</table>").unwrap().0;
+    assert!(table.contains(">not all arrived<") && table.contains(">robots touched<"), "{table}");
+    assert!(!table.contains(">rule broken<"), "{table}");
+    // Scenes with any, the two reasons, runs.
+    assert_eq!(first_row(&page, "missing-planners"), ["1"; 4]);
+}
+
+#[test]
+fn chinese_says_clean_and_has_its_spaces() {
+    let page = html(&results(&["a", "b"], &["one"], 3), Language::Chinese);
+    assert!(page.contains("涵盖 1 个场景") && page.contains("全部无失误") && !page.contains("全部有效"));
+}

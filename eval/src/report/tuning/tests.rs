@@ -96,3 +96,13 @@ fn poor_data_make_poor_pages_but_pages() {
     bare.runs.clear();
     check(&html(&bare, Language::English));
 }
+
+#[test]
+fn a_search_and_none_are_not_compared_by_time() {
+    let mut results = results(&[0.1]);
+    results.runs.iter_mut().filter(|r| r.planner == "given").for_each(|r| r.time_us = 100.0);
+    let page = html(&results, Language::English);
+    let pairs = page.split_once("id=\"pairwise-table\"").unwrap().1.split_once("</table>").unwrap().0;
+    assert!(pairs.contains("ratio A&#x2f;B") && !pairs.contains("time"), "{pairs}");
+    assert!(page.contains("fitness") && !page.contains("times faster than"));
+}
