@@ -51,7 +51,7 @@ pub struct Metrics {
 }
 
 impl Metrics {
-    /// Whether all arrived and nobody touched anything.
+    /// Whether all arrived and nobody touched anybody or broke a rule.
     pub fn is_clean(&self) -> bool {
         self.arrived == self.robots && self.collisions == 0 && self.violations == 0
     }
