@@ -125,7 +125,8 @@ mod tests {
     fn from_inside_a_polygon_the_nearest_way_leads_out() {
         let square = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]].map(Point::from).to_vec();
         let shape = Inflated { core: Core::Polygon(env_model::Polygon::new(square).unwrap()), radius: 0.5 };
-        let mover = Mover { shape, path: Path::Velocity(Vector::zeros()), margin: 0.0, side: Side::Other };
+        let mover =
+            Mover { shape, path: Path::Velocity(Vector::zeros()), margin: 0.0, side: Side::Other, braking: None };
         let see = |x: f64| {
             let state = State { position: Point::new(x, 2.0), velocity: Vector::zeros() };
             of_mover(&mover, state, 2.0, 0.1, &OrcaSettings { margin: 0.0, ..OrcaSettings::default() })
