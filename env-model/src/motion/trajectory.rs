@@ -231,13 +231,4 @@ impl Trajectory {
         }
         peaks
     }
-
-    /// The length of the way, each piece measured by `steps` chords.
-    pub fn length(&self, steps: usize) -> f64 {
-        let chords = |piece: &Piece| {
-            let at = |i: usize| piece.state(piece.duration * i as f64 / steps as f64).position;
-            (0..steps).map(|i| (at(i + 1) - at(i)).norm()).sum::<f64>()
-        };
-        self.pieces.iter().map(chords).sum()
-    }
 }

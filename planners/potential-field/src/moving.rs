@@ -20,7 +20,7 @@
 //! Source: S. S. Ge & Y. J. Cui, *Dynamic motion planning for mobile robots using potential field method*, Autonomous
 //! Robots 13:207–222, 2002, DOI 10.1023/A:1020564024509.
 
-use env_model::motion::{Limits, State, Trajectory, bang_bang};
+use env_model::motion::{Limits, State, Trajectory, bang_bang, stop};
 use env_model::{Aabb, Inflated, Vector};
 use planner_api::{ControlError, Controller, Outcome, Run, SettingError, Situation};
 use serde::{Deserialize, Serialize};
@@ -176,12 +176,7 @@ fn push_on(state: State, acceleration: Vector, limits: Limits, period: f64, out:
             out.push(period, acceleration);
         }
     }
-    let v = out.end().velocity;
-    let speed = v.norm();
-    if speed > 0.0 {
-        out.push(speed / limits.acceleration, v * (-limits.acceleration / speed));
-    }
-    out.end_at(State::at_rest(out.end().position));
+    stop(out, limits);
 }
 
 #[cfg(test)]
