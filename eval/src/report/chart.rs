@@ -38,10 +38,10 @@ pub fn x_grid(axis: &Axis, top: f64, bottom: f64, number: &dyn Fn(f64) -> String
     out
 }
 
-/// Horizontal grid lines across the plotting area, numbers on the left.
-pub fn y_grid(axis: &Axis, number: &dyn Fn(f64) -> String) -> String {
+/// Horizontal grid lines across the plotting area, about `count` of them, numbers on the left.
+pub fn y_grid(axis: &Axis, count: usize, number: &dyn Fn(f64) -> String) -> String {
     let mut out = String::new();
-    for v in axis.ticks(8) {
+    for v in axis.ticks(count) {
         let y = axis.at(v);
         let _ = write!(
             out,

@@ -142,7 +142,7 @@ pub fn figure(id: &str, series: &[Series<'_>], optimum: Option<f64>, unit: &str,
     }
     let mut svg = chart::open(id, HEIGHT, title, &text);
     svg += &chart::x_grid(&x, TOP, BOTTOM, &format::count);
-    svg += &chart::y_grid(&y, &number);
+    svg += &chart::y_grid(&y, 8, &number);
     let _ = write!(
         svg,
         r#"<text class="axis" x="{}" y="24">{}</text><text class="axis end" x="{}" y="{:.0}">{}</text>"#,

@@ -69,18 +69,7 @@ fn panel(snapshot: &Snapshot, index: usize, top: f64, x: &Axis) -> String {
         top + 20.0,
         escape(&snapshot.planner)
     );
-    for v in y.ticks(5) {
-        let at = y.at(v);
-        let _ = write!(
-            out,
-            r#"<path class="grid" d="M{} {at:.1}H{}"/><text class="end tick" x="{:.1}" y="{:.1}">{}</text>"#,
-            chart::LEFT,
-            chart::RIGHT,
-            chart::LEFT - 10.0,
-            at + 5.0,
-            escape(&format::significant(v, 4))
-        );
-    }
+    out += &chart::y_grid(&y, 5, &|v| format::significant(v, 4));
     let colour = palette::colour(index);
     let line = |value: &dyn Fn(&(u64, f64, f64)) -> f64| {
         let points: Vec<String> =

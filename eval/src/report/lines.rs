@@ -63,7 +63,7 @@ pub fn figure(chart: &Chart<'_>, lines: &[Line<'_>], table: Value) -> Option<Val
     let (y, y_name, y_number) = chart.y;
     let mut svg = chart::open(chart.id, HEIGHT, chart.title, chart.text);
     svg += &chart::x_grid(&x, TOP, BOTTOM, x_number);
-    svg += &chart::y_grid(&y, y_number);
+    svg += &chart::y_grid(&y, 8, y_number);
     let _ = write!(
         svg,
         r#"<text class="axis" x="4" y="24">{}</text><text class="axis end" x="{}" y="{:.0}">{}</text>"#,

@@ -52,7 +52,7 @@ pub fn figure(id: &str, series: &[Series<'_>], t: &Strings) -> Option<Value> {
     let number = |v: f64| format::significant(v, 5);
     let mut svg = chart::open(id, HEIGHT, title, &text);
     svg += &chart::x_grid(&x, TOP, BOTTOM, &number);
-    svg += &chart::y_grid(&y, &number);
+    svg += &chart::y_grid(&y, 8, &number);
     let _ = write!(
         svg,
         r#"<text class="axis" x="4" y="24">{}</text><text class="axis end" x="{}" y="{:.0}">{}</text>"#,

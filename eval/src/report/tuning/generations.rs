@@ -91,18 +91,7 @@ fn panel(c: &Curves<'_>, top: f64, x: &Axis, y: &Axis, last: usize, t: &Strings)
         escape(c.label)
     );
     let (upper, lower) = (top + HEAD, top + PANEL - 14.0);
-    for v in y.ticks(5) {
-        let at = y.at(v);
-        let _ = write!(
-            out,
-            r#"<path class="grid" d="M{} {at:.1}H{}"/><text class="end tick" x="{:.1}" y="{:.1}">{}</text>"#,
-            chart::LEFT,
-            chart::RIGHT,
-            chart::LEFT - 10.0,
-            at + 5.0,
-            escape(&fitness(v))
-        );
-    }
+    out += &chart::y_grid(y, 5, &fitness);
     for g in MILESTONES.into_iter().filter(|g| *g <= last) {
         let at = x.at(g as f64);
         let words = t.fill("generations_mark", &[("n", &g.to_string())]);
