@@ -1,11 +1,12 @@
 //! Portable random draws.
 
 use env_model::Vector;
+use planner_api::seed::unit;
 use rand::{Rng, RngExt};
 
 /// Uniform in [0, 1), 53 bits.
 pub(crate) fn uniform(rng: &mut impl Rng) -> f64 {
-    (rng.random::<u64>() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
+    unit(rng.random())
 }
 
 /// Uniform in [low, high).

@@ -1,5 +1,6 @@
 //! One ant's walk from an entry to an exit.
 
+use planner_api::seed::unit;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
@@ -82,7 +83,7 @@ fn choose(weights: &[f64; 8], rng: &mut ChaCha8Rng) -> Option<usize> {
         return Some(last);
     }
     // 53 bits of a word, in [0, 1): the same on every platform.
-    let uniform = (rng.random::<u64>() >> 11) as f64 / (1_u64 << 53) as f64;
+    let uniform = unit(rng.random());
     let mut left = uniform * weights.iter().sum::<f64>();
     // By rounding the sum may not be used up: the last one takes what remains.
     let chosen = weights[..last].iter().position(|w| {

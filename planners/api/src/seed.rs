@@ -12,6 +12,11 @@ pub fn splitmix64(state: &mut u64) -> u64 {
     z ^ (z >> 31)
 }
 
+/// The number in [0, 1) that the upper 53 bits of `word` are: a multiple of 2⁻⁵³, uniform if `word` is.
+pub fn unit(word: u64) -> f64 {
+    (word >> 11) as f64 * (1.0 / (1_u64 << 53) as f64)
+}
+
 #[cfg(test)]
 mod tests {
     #[test]
@@ -20,5 +25,12 @@ mod tests {
         let mut state = 1_234_567;
         assert_eq!(super::splitmix64(&mut state), 6_457_827_717_110_365_317);
         assert_eq!(super::splitmix64(&mut state), 3_203_168_211_198_807_973);
+    }
+    #[test]
+    fn units_are_multiples_of_two_to_the_minus_53() {
+        assert_eq!(super::unit(0), 0.0);
+        assert_eq!(super::unit(1 << 63), 0.5);
+        assert_eq!(super::unit(1 << 11), 2f64.powi(-53));
+        assert_eq!(super::unit(u64::MAX), 1.0 - 2f64.powi(-53), "never 1");
     }
 }

@@ -1,6 +1,7 @@
 //! Random numbers, mapped from generator words by arithmetic that is the same everywhere.
 
 use env_model::Vector;
+use planner_api::seed::unit;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -23,7 +24,7 @@ impl Dice {
 
     /// Uniform on [0, 1), a multiple of 2⁻⁵³.
     pub fn unit(&mut self) -> f64 {
-        (self.word() >> 11) as f64 * (1.0 / (1_u64 << 53) as f64)
+        unit(self.word())
     }
 
     /// Uniform on [low, high).

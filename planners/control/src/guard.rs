@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use env_model::motion::{Contact, Trajectory, bang_bang, brake, first_contact};
 use env_model::{Point, Vector};
-use planner_api::seed::splitmix64;
+use planner_api::seed::{splitmix64, unit};
 use planner_api::{ControlError, Controller, Outcome, Run, Situation};
 
 use crate::escape::nearest_accepted;
@@ -210,7 +210,7 @@ fn direction(v: Vector) -> Vector {
 /// Along `v`, up to a quarter of a turn aside as `seed` has it: two robots at one spot must not do the same.
 fn astray(v: Vector, seed: u64) -> Vector {
     let mut state = seed;
-    let uniform = (splitmix64(&mut state) >> 11) as f64 / (1u64 << 53) as f64;
+    let uniform = unit(splitmix64(&mut state));
     let (angle, u) = ((uniform - 0.5) * PI, direction(v));
     let (cos, sin) = (libm::cos(angle), libm::sin(angle));
     Vector::new(u.x * cos - u.y * sin, u.x * sin + u.y * cos)

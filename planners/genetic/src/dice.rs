@@ -1,5 +1,6 @@
 //! Random numbers, mapped from generator words by arithmetic that is the same everywhere.
 
+use planner_api::seed::unit;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -15,7 +16,7 @@ impl Dice {
 
     /// Uniform on [0, 1), a multiple of 2⁻⁵³.
     pub fn unit(&mut self) -> f64 {
-        (self.0.random::<u64>() >> 11) as f64 * (1.0 / (1_u64 << 53) as f64)
+        unit(self.0.random())
     }
 
     /// Uniform on 0 … n − 1; `n` > 0. The bias, n/2⁶⁴, is far below what a run could show.

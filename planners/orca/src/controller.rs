@@ -2,7 +2,7 @@
 
 use env_model::Vector;
 use env_model::motion::{Limits, State, Trajectory, bang_bang, change_velocity, stop};
-use planner_api::seed::splitmix64;
+use planner_api::seed::{splitmix64, unit};
 use planner_api::{ControlError, Controller, Outcome, Run, SettingError, Situation};
 
 use crate::OrcaSettings;
@@ -65,7 +65,7 @@ impl Orca {
 
 /// A random vector no longer than `length`: direction and length uniform, as in RVO2.
 fn perturbation(mut seed: u64, length: f64) -> Vector {
-    let mut uniform = || (splitmix64(&mut seed) >> 11) as f64 / (1u64 << 53) as f64;
+    let mut uniform = || unit(splitmix64(&mut seed));
     let (angle, length) = (uniform() * std::f64::consts::TAU, uniform() * length);
     Vector::new(libm::cos(angle), libm::sin(angle)) * length
 }

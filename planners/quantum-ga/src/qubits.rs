@@ -1,5 +1,6 @@
 //! Qubits, their observation and the rotation gate (Han & Kim 2002, §III).
 
+use planner_api::seed::unit;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
@@ -17,7 +18,7 @@ impl Qubit {
     /// 1 with probability β², else 0. The qubit stays as it is: nothing quantum about it.
     pub fn observe(self, rng: &mut ChaCha8Rng) -> bool {
         // Uniform on [0, 1), by 53 bits of a word.
-        let u = (rng.random::<u64>() >> 11) as f64 * (1.0 / (1_u64 << 53) as f64);
+        let u = unit(rng.random());
         u < self.beta * self.beta
     }
 }

@@ -1,6 +1,7 @@
 //! Random numbers and points.
 
 use env_model::{Aabb, Point, Vector};
+use planner_api::seed::unit;
 use rand::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
@@ -15,7 +16,7 @@ impl Sampler {
 
     /// Uniform in [0, 1), a multiple of 2⁻⁵³.
     pub fn unit(&mut self) -> f64 {
-        (self.0.next_u64() >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
+        unit(self.0.next_u64())
     }
 
     /// Uniform in the box.

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use env_model::Vector;
 use env_model::motion::Trajectory;
-use planner_api::seed::splitmix64;
+use planner_api::seed::{splitmix64, unit};
 use planner_api::{ControlError, Controller, Outcome, Run, SettingError, Situation};
 
 use crate::SampledBangBangSettings;
@@ -55,10 +55,10 @@ impl SampledBangBang {
     fn search(&mut self, call: &mut Call<'_, '_, '_>) {
         let Self { settings, memory, frame, trial } = self;
         let Situation { state, goal, limits, .. } = *call.situation;
-        let unit = limits.speed * limits.speed / limits.acceleration;
+        let length = limits.speed * limits.speed / limits.acceleration;
         let towards = goal - state.position;
         let heading = libm::atan2(towards.y, towards.x);
-        let off = |angle: f64, distance: f64| Vector::new(libm::cos(angle), libm::sin(angle)) * (distance * unit);
+        let off = |angle: f64, distance: f64| Vector::new(libm::cos(angle), libm::sin(angle)) * (distance * length);
         for i in 0..settings.directions {
             for distance in &settings.distances {
                 if !call.run.allows(1) {
@@ -69,7 +69,7 @@ impl SampledBangBang {
             }
         }
         let mut word = call.run.seed ^ frame.rotate_left(32);
-        let mut uniform = || (splitmix64(&mut word) >> 11) as f64 / (1u64 << 53) as f64;
+        let mut uniform = || unit(splitmix64(&mut word));
         let greatest = |values: &[f64]| values.iter().fold(0.0, |a: f64, b| a.max(*b));
         let (farthest, latest) = (greatest(&settings.distances), greatest(&settings.switches));
         for i in 0..settings.samples {
@@ -93,7 +93,7 @@ impl SampledBangBang {
                 let angle = heading + TAU * i as f64 / settings.directions as f64;
                 let distance = share * towards.norm();
                 // After d/v a motion from rest over at least v²/a begins to brake.
-                trial.via(state.position + off(angle, distance / unit), &[distance / limits.speed], call);
+                trial.via(state.position + off(angle, distance / length), &[distance / limits.speed], call);
             }
         }
     }
